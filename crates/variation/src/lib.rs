@@ -1,0 +1,1 @@
+//! Certified real roots of Bernstein polynomials, refined variation-diminishing bounds, and curve intersections

@@ -1,0 +1,1 @@
+//! Wavefronts in dual Bézier form: propagation, reflection, transmission, caustics and anisotropy

@@ -1,0 +1,3 @@
+//! Demos, gallery and benchmarks.
+
+fn main() {}
