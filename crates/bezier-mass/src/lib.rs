@@ -1,1 +1,21 @@
 //! Rational Bézier and B-spline curves and patches whose control points may be points or vectors
+
+mod curve;
+mod error;
+mod homography;
+mod jet;
+mod mass_point;
+mod quadratic;
+mod vector_space;
+
+pub mod bernstein;
+
+pub use curve::BezierCurve;
+pub use error::Error;
+pub use homography::{Homography, Parameter};
+pub use jet::{CurveJet, Partials, PatchJet};
+pub use mass_point::{MassPoint, MassPointKind};
+pub use quadratic::Quadratic;
+pub use vector_space::VectorSpace;
+
+pub use glam; // its types appear in our signatures

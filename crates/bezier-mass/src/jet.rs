@@ -1,0 +1,158 @@
+//! Values with derivatives: what a curve or a patch knows about one parameter.
+
+use crate::{MassPoint, VectorSpace};
+use glam::DVec3;
+
+/// The value of a curve at a parameter with its first and second derivative, all as mass points.
+///
+/// The homogeneous derivatives are polynomial and exist everywhere, also where the weight vanishes; the
+/// methods turn them into derivatives of the position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct CurveJet<V> {
+    /// The value `h(t)`.
+    pub value: MassPoint<V>,
+    /// The derivative `h'(t)`.
+    pub first: MassPoint<V>,
+    /// The second derivative `h''(t)`.
+    pub second: MassPoint<V>,
+}
+
+impl<V: VectorSpace> CurveJet<V> {
+    /// The position; `None` where the weight vanishes.
+    #[must_use]
+    pub fn position(&self) -> Option<V> {
+        self.value.position()
+    }
+
+    /// The derivative of the position by the parameter; `None` where the weight vanishes.
+    #[must_use]
+    pub fn velocity(&self) -> Option<V> {
+        let weight = self.value.weight;
+        finite(self.value.moment(self.first).times(1.0 / (weight * weight)))
+    }
+
+    /// The second derivative of the position by the parameter; `None` where the weight vanishes.
+    #[must_use]
+    pub fn acceleration(&self) -> Option<V> {
+        quotient_second(self.value, [self.first, self.first], self.second)
+    }
+}
+
+/// `(X_ab - w_a P_b - w_b P_a - w_ab P) / w`: the second derivative of the quotient `P = X / w`.
+fn quotient_second<V: VectorSpace>(
+    value: MassPoint<V>,
+    [a, b]: [MassPoint<V>; 2],
+    mixed: MassPoint<V>,
+) -> Option<V> {
+    let weight = value.weight;
+    let moments = value
+        .moment(a)
+        .times(b.weight)
+        .plus(value.moment(b).times(a.weight));
+    let second = value.moment(mixed).times(1.0 / (weight * weight));
+    finite(second.minus(moments.times(1.0 / (weight * weight * weight))))
+}
+
+fn finite<V: VectorSpace>(vector: V) -> Option<V> {
+    vector.is_finite().then_some(vector)
+}
+
+/// The value of a patch at a parameter pair with its partial derivatives to second order, as mass points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct PatchJet<V> {
+    /// The value `h(u, v)`.
+    pub value: MassPoint<V>,
+    /// The partial derivative by `u`.
+    pub du: MassPoint<V>,
+    /// The partial derivative by `v`.
+    pub dv: MassPoint<V>,
+    /// The second partial derivative by `u`.
+    pub duu: MassPoint<V>,
+    /// The mixed partial derivative.
+    pub duv: MassPoint<V>,
+    /// The second partial derivative by `v`.
+    pub dvv: MassPoint<V>,
+}
+
+/// Position and partial derivatives of a surface in its own space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Partials<V> {
+    /// The position.
+    pub position: V,
+    /// The partial derivative by `u`.
+    pub du: V,
+    /// The partial derivative by `v`.
+    pub dv: V,
+    /// The second partial derivative by `u`.
+    pub duu: V,
+    /// The mixed partial derivative.
+    pub duv: V,
+    /// The second partial derivative by `v`.
+    pub dvv: V,
+}
+
+impl<V: VectorSpace> PatchJet<V> {
+    /// The position; `None` where the weight vanishes.
+    #[must_use]
+    pub fn position(&self) -> Option<V> {
+        self.value.position()
+    }
+
+    /// Position and partial derivatives in space; `None` where the weight vanishes.
+    #[must_use]
+    pub fn partials(&self) -> Option<Partials<V>> {
+        let Self {
+            value,
+            du,
+            dv,
+            duu,
+            duv,
+            dvv,
+        } = *self;
+        let inverse_square = 1.0 / (value.weight * value.weight);
+        Some(Partials {
+            position: value.position()?,
+            du: finite(value.moment(du).times(inverse_square))?,
+            dv: finite(value.moment(dv).times(inverse_square))?,
+            duu: quotient_second(value, [du, du], duu)?,
+            duv: quotient_second(value, [du, dv], duv)?,
+            dvv: quotient_second(value, [dv, dv], dvv)?,
+        })
+    }
+}
+
+impl PatchJet<DVec3> {
+    /// The unit normal along `dP/du x dP/dv`; `None` where the tangent plane is not determined by the first
+    /// derivatives.
+    ///
+    /// Computed without a division by the weight, as the plane through `h`, `h_u`, `h_v`; so it exists where
+    /// the weight vanishes too, where it is the normal of the asymptotic plane (of either orientation).
+    #[must_use]
+    pub fn normal(&self) -> Option<DVec3> {
+        let normal = self.unscaled_normal();
+        let scale = self.value.magnitude() * self.du.magnitude() * self.dv.magnitude();
+        if normal.length() > NORMAL_ROUNDING * scale {
+            normal.try_normalize()
+        } else {
+            None
+        }
+    }
+
+    /// `w^2 (P_u x P_v)` up to the factor `|w|`: a polynomial in the parameters up to its sign.
+    fn unscaled_normal(&self) -> DVec3 {
+        let Self {
+            value: h, du, dv, ..
+        } = *self;
+        let normal = du.weighted.cross(dv.weighted) * h.weight
+            + dv.weighted.cross(h.weighted) * du.weight
+            + h.weighted.cross(du.weighted) * dv.weight;
+        if h.weight < 0.0 { -normal } else { normal }
+    }
+}
+
+/// A normal shorter than this fraction of the product of the three mass points that span it is rounding
+/// error: each of the nine products of three coordinates carries about four units in the last place.
+const NORMAL_ROUNDING: f64 = 32.0 * f64::EPSILON;
