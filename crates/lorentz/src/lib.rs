@@ -1,1 +1,26 @@
 //! Oriented spheres, planes and points as vectors of the Lorentz space L(4,1), and canal surfaces as curves there
+mod circle;
+mod error;
+mod object;
+mod pencil;
+mod plane;
+mod point;
+mod relation;
+mod sphere;
+mod sphere_vector;
+mod tolerance;
+mod transform;
+mod vector;
+
+pub use circle::{CharacteristicCircle, Circle, Line};
+pub use error::Error;
+pub use glam; // its types appear in our signatures
+pub use object::Object;
+pub use pencil::{Pencil, PencilKind};
+pub use plane::Plane;
+pub use point::Point;
+pub use relation::{PointPosition, Relation, Side, SpherePosition};
+pub use sphere::{Cycle, Sphere};
+pub use sphere_vector::SphereVector;
+pub use transform::LorentzMap;
+pub use vector::{CausalType, LorentzVector};
