@@ -7,7 +7,10 @@ use crate::{Error, LorentzVector, Plane, Sphere, SphereVector};
 /// A circle in space: centre, positive radius and a unit axis, which gives it a sense of rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "(DVec3, f64, DVec3)", into = "(DVec3, f64, DVec3)"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "(DVec3, f64, DVec3)", into = "(DVec3, f64, DVec3)")
+)]
 pub struct Circle {
     centre: DVec3,
     radius: f64,
@@ -17,7 +20,10 @@ pub struct Circle {
 /// A line in space: a unit direction and the point of the line nearest to the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "(DVec3, DVec3)", into = "(DVec3, DVec3)"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "(DVec3, DVec3)", into = "(DVec3, DVec3)")
+)]
 pub struct Line {
     direction: DVec3,
     nearest_to_origin: DVec3,
@@ -40,16 +46,26 @@ impl Circle {
     /// [`Error::CircleRadius`], [`Error::ZeroNormal`], [`Error::NonFinite`].
     pub fn new(centre: DVec3, radius: f64, axis: DVec3) -> Result<Self, Error> {
         if !(centre.length_squared().is_finite() && (radius * radius).is_finite()) {
-            return Err(Error::NonFinite { what: "the centre or the radius of a circle" });
+            return Err(Error::NonFinite {
+                what: "the centre or the radius of a circle",
+            });
         }
         if radius <= 0.0 {
             return Err(Error::CircleRadius { radius });
         }
-        Ok(Self { centre, radius, axis: unit_direction(axis)? })
+        Ok(Self {
+            centre,
+            radius,
+            axis: unit_direction(axis)?,
+        })
     }
 
     pub(crate) const fn from_parts(centre: DVec3, radius: f64, axis: DVec3) -> Self {
-        Self { centre, radius, axis }
+        Self {
+            centre,
+            radius,
+            axis,
+        }
     }
 
     /// Centre in space.
@@ -101,7 +117,9 @@ impl Circle {
     /// Those of [`frame`](Self::frame).
     pub fn point(self, theta: f64, reference: DVec3) -> Result<DVec3, Error> {
         if !theta.is_finite() {
-            return Err(Error::NonFinite { what: "the angle on a circle" });
+            return Err(Error::NonFinite {
+                what: "the angle on a circle",
+            });
         }
         let (u, v) = self.frame(reference)?;
         Ok(self.centre + self.radius * (theta.cos() * u + theta.sin() * v))
@@ -136,13 +154,21 @@ impl Line {
     pub fn new(direction: DVec3, point: DVec3) -> Result<Self, Error> {
         let direction = unit_direction(direction)?;
         if !point.length_squared().is_finite() {
-            return Err(Error::NonFinite { what: "the point of a line" });
+            return Err(Error::NonFinite {
+                what: "the point of a line",
+            });
         }
-        Ok(Self { direction, nearest_to_origin: point - point.dot(direction) * direction })
+        Ok(Self {
+            direction,
+            nearest_to_origin: point - point.dot(direction) * direction,
+        })
     }
 
     pub(crate) const fn from_parts(direction: DVec3, nearest_to_origin: DVec3) -> Self {
-        Self { direction, nearest_to_origin }
+        Self {
+            direction,
+            nearest_to_origin,
+        }
     }
 
     /// Unit direction.
@@ -179,7 +205,9 @@ impl CharacteristicCircle {
     pub fn of(sphere: SphereVector, derivative: SphereVector) -> Result<Self, Error> {
         let (s, t) = (sphere.vector(), derivative.vector());
         if !decide_product(s, t, 0.0) {
-            return Err(Error::NotOrthogonal { product: product_and_terms(s, t).0 });
+            return Err(Error::NotOrthogonal {
+                product: product_and_terms(s, t).0,
+            });
         }
         Ok(Self::of_orthogonal(s, t))
     }
@@ -192,19 +220,31 @@ impl CharacteristicCircle {
         }
         let curvature = s.o.hypot(t.o);
         let (a, b) = (s.o / curvature, t.o / curvature);
-        Self::Circle(Circle::from_parts((a * s.v + b * t.v) / curvature, 1.0 / curvature, a * t.v - b * s.v))
+        Self::Circle(Circle::from_parts(
+            (a * s.v + b * t.v) / curvature,
+            1.0 / curvature,
+            a * t.v - b * s.v,
+        ))
     }
 
     /// The circle, unless it is a line.
     #[must_use]
     pub fn circle(self) -> Option<Circle> {
-        if let Self::Circle(circle) = self { Some(circle) } else { None }
+        if let Self::Circle(circle) = self {
+            Some(circle)
+        } else {
+            None
+        }
     }
 
     /// The line, if it is one.
     #[must_use]
     pub fn line(self) -> Option<Line> {
-        if let Self::Line(line) = self { Some(line) } else { None }
+        if let Self::Line(line) = self {
+            Some(line)
+        } else {
+            None
+        }
     }
 
     /// Two orthogonal unit vectors whose spheres meet in this circle, in the order that gives its axis: the great
@@ -218,7 +258,8 @@ impl CharacteristicCircle {
             Self::Line(line) => {
                 let first = line.direction.any_orthonormal_vector();
                 let second = line.direction.cross(first);
-                let through = |normal| Plane::new(normal, line.nearest_to_origin).map(SphereVector::from);
+                let through =
+                    |normal| Plane::new(normal, line.nearest_to_origin).map(SphereVector::from);
                 Ok((through(first)?, through(second)?))
             }
         }

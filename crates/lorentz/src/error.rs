@@ -80,7 +80,9 @@ pub enum Error {
     #[error("the two points coincide")]
     CoincidentPoints,
     /// One of the two end points lies on the sphere between them.
-    #[error("a point lies on the sphere: the products with the two points are {first} and {second}")]
+    #[error(
+        "a point lies on the sphere: the products with the two points are {first} and {second}"
+    )]
     PointOnSphere {
         /// Product of the sphere with the first point.
         first: f64,
@@ -149,7 +151,9 @@ pub enum Error {
     #[error("the three controls are linearly dependent: there is no second family")]
     DegenerateControls,
     /// A grid needs at least one step along the curve and three around it.
-    #[error("a grid of {steps} steps and {sectors} sectors is too small (1 and 3 at least) or too large to address")]
+    #[error(
+        "a grid of {steps} steps and {sectors} sectors is too small (1 and 3 at least) or too large to address"
+    )]
     GridSize {
         /// Steps along the curve.
         steps: usize,

@@ -49,12 +49,20 @@ impl Object {
     /// The sphere, if it is one.
     #[must_use]
     pub fn sphere(self) -> Option<Sphere> {
-        if let Self::Sphere(sphere) = self { Some(sphere) } else { None }
+        if let Self::Sphere(sphere) = self {
+            Some(sphere)
+        } else {
+            None
+        }
     }
 
     /// The plane, if it is one.
     #[must_use]
     pub fn plane(self) -> Option<Plane> {
-        if let Self::Plane(plane) = self { Some(plane) } else { None }
+        if let Self::Plane(plane) = self {
+            Some(plane)
+        } else {
+            None
+        }
     }
 }

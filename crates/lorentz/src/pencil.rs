@@ -56,18 +56,32 @@ impl Pencil {
         let kind = match position.relation {
             Relation::Identical | Relation::Opposite => return Err(Error::SameSphere { product }),
             Relation::Tangent { contact, .. } => PencilKind::Tangent { contact },
-            Relation::Orthogonal | Relation::Secant { .. } => {
-                PencilKind::BaseCircle(CharacteristicCircle::of_orthogonal(s, orthogonal_partner(s, t, product)))
-            }
+            Relation::Orthogonal | Relation::Secant { .. } => PencilKind::BaseCircle(
+                CharacteristicCircle::of_orthogonal(s, orthogonal_partner(s, t, product)),
+            ),
             Relation::Disjoint { .. } => {
                 let root = ((product - 1.0) * (product + 1.0)).sqrt();
                 // The product of the two solutions is 1: the larger one is safe from cancellation.
                 let large = -product - root.copysign(product);
-                let [minus, plus] = if product > 0.0 { [large, 1.0 / large] } else { [1.0 / large, large] };
-                PencilKind::Poncelet { limit_points: [(s + minus * t).recover_point()?, (s + plus * t).recover_point()?] }
+                let [minus, plus] = if product > 0.0 {
+                    [large, 1.0 / large]
+                } else {
+                    [1.0 / large, large]
+                };
+                PencilKind::Poncelet {
+                    limit_points: [
+                        (s + minus * t).recover_point()?,
+                        (s + plus * t).recover_point()?,
+                    ],
+                }
             }
         };
-        Ok(Self { first, second, product, kind })
+        Ok(Self {
+            first,
+            second,
+            product,
+            kind,
+        })
     }
 
     /// The pencil of all spheres through a circle (or all planes through a line).
@@ -80,7 +94,12 @@ impl Pencil {
     pub fn through(circle: impl Into<CharacteristicCircle>) -> Result<Self, Error> {
         let circle = circle.into();
         let (first, second) = circle.orthogonal_pair()?;
-        Ok(Self { first, second, product: 0.0, kind: PencilKind::BaseCircle(circle) })
+        Ok(Self {
+            first,
+            second,
+            product: 0.0,
+            kind: PencilKind::BaseCircle(circle),
+        })
     }
 
     /// The kind of pencil and what its members share.
@@ -149,7 +168,9 @@ impl Pencil {
     fn partner(&self) -> LorentzVector {
         let (s, t) = (self.first.vector(), self.second.vector());
         match self.kind {
-            PencilKind::BaseCircle(_) | PencilKind::Poncelet { .. } => orthogonal_partner(s, t, self.product),
+            PencilKind::BaseCircle(_) | PencilKind::Poncelet { .. } => {
+                orthogonal_partner(s, t, self.product)
+            }
             PencilKind::Tangent { .. } => s - self.product.signum() * t,
         }
     }

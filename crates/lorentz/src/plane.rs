@@ -20,7 +20,10 @@ use crate::{Error, LorentzVector};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "(DVec3, f64)", into = "(DVec3, f64)"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "(DVec3, f64)", into = "(DVec3, f64)")
+)]
 pub struct Plane {
     normal: DVec3,
     offset: f64,
@@ -50,7 +53,9 @@ impl Plane {
         if (offset * offset).is_finite() {
             Ok(Self { normal, offset })
         } else {
-            Err(Error::NonFinite { what: "the offset of a plane" })
+            Err(Error::NonFinite {
+                what: "the offset of a plane",
+            })
         }
     }
 
@@ -82,7 +87,9 @@ impl Plane {
 /// A checked unit vector along `direction`, of any length but zero.
 pub(crate) fn unit_direction(direction: DVec3) -> Result<DVec3, Error> {
     if !direction.is_finite() {
-        return Err(Error::NonFinite { what: "a direction" });
+        return Err(Error::NonFinite {
+            what: "a direction",
+        });
     }
     let largest = direction.abs().max_element();
     if largest == 0.0 {
@@ -95,7 +102,10 @@ pub(crate) fn unit_direction(direction: DVec3) -> Result<DVec3, Error> {
 impl Neg for Plane {
     type Output = Self;
     fn neg(self) -> Self {
-        Self { normal: -self.normal, offset: -self.offset }
+        Self {
+            normal: -self.normal,
+            offset: -self.offset,
+        }
     }
 }
 

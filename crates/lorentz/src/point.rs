@@ -15,7 +15,10 @@ use crate::{Error, LorentzVector};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "Option<DVec3>", into = "Option<DVec3>"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "Option<DVec3>", into = "Option<DVec3>")
+)]
 pub struct Point {
     position: Option<DVec3>,
 }
@@ -24,7 +27,9 @@ impl Point {
     /// The point at infinity.
     pub const INFINITY: Self = Self { position: None };
     /// The origin of space.
-    pub const ORIGIN: Self = Self { position: Some(DVec3::ZERO) };
+    pub const ORIGIN: Self = Self {
+        position: Some(DVec3::ZERO),
+    };
 
     /// The point at `position`.
     ///
@@ -32,9 +37,13 @@ impl Point {
     /// [`Error::NonFinite`].
     pub fn new(position: DVec3) -> Result<Self, Error> {
         if position.length_squared().is_finite() {
-            Ok(Self { position: Some(position) })
+            Ok(Self {
+                position: Some(position),
+            })
         } else {
-            Err(Error::NonFinite { what: "the position of a point" })
+            Err(Error::NonFinite {
+                what: "the position of a point",
+            })
         }
     }
 

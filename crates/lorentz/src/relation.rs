@@ -93,7 +93,11 @@ impl SphereVector {
         let side = if self.contains(point) {
             Side::On
         } else if self.vector().is_flat() {
-            if product > 0.0 { Side::Positive } else { Side::Negative }
+            if product > 0.0 {
+                Side::Positive
+            } else {
+                Side::Negative
+            }
         } else if product * self.curvature() > 0.0 {
             Side::Inside
         } else {
@@ -126,11 +130,18 @@ impl SphereVector {
         } else if decide_product(s, t, 0.0) {
             Relation::Orthogonal
         } else if decide_product(s, t, product.signum()) {
-            Relation::Tangent { contact: contact(s, t, product.signum()), same_orientation: product > 0.0 }
+            Relation::Tangent {
+                contact: contact(s, t, product.signum()),
+                same_orientation: product > 0.0,
+            }
         } else if product.abs() < 1.0 {
-            Relation::Secant { angle: product.acos() }
+            Relation::Secant {
+                angle: product.acos(),
+            }
         } else {
-            Relation::Disjoint { inversive_distance: product.abs().acosh() }
+            Relation::Disjoint {
+                inversive_distance: product.abs().acosh(),
+            }
         };
         SpherePosition { product, relation }
     }
@@ -160,12 +171,15 @@ fn same_unit_vector(s: LorentzVector, t: LorentzVector) -> bool {
     }
     let (centres, radii) = ((s.v / s.o, t.v / t.o), (1.0 / s.o, 1.0 / t.o));
     // The subtraction of the centres cannot know more than their rounding.
-    let tolerance = DECISION * radii.0.abs() + 4.0 * f64::EPSILON * (centres.0.length() + centres.1.length());
+    let tolerance =
+        DECISION * radii.0.abs() + 4.0 * f64::EPSILON * (centres.0.length() + centres.1.length());
     centres.0.distance(centres.1) <= tolerance && (radii.0 - radii.1).abs() <= tolerance
 }
 
 /// The light-like vector `s - sign t` of two touching spheres is their point of contact.
 fn contact(s: LorentzVector, t: LorentzVector, sign: f64) -> Object {
     let vector = s - sign * t;
-    vector.recover_point().unwrap_or(Object::Infinity { scale: vector.inf })
+    vector
+        .recover_point()
+        .unwrap_or(Object::Infinity { scale: vector.inf })
 }

@@ -33,7 +33,9 @@ impl Sphere {
     /// [`Error::ZeroRadius`]; [`Error::NonFinite`], also when the sphere is too large or too small for its vector.
     pub fn new(centre: DVec3, radius: f64) -> Result<Self, Error> {
         if !(centre.is_finite() && radius.is_finite()) {
-            return Err(Error::NonFinite { what: "the centre or the radius of a sphere" });
+            return Err(Error::NonFinite {
+                what: "the centre or the radius of a sphere",
+            });
         }
         if radius == 0.0 {
             return Err(Error::ZeroRadius { centre });
@@ -42,7 +44,9 @@ impl Sphere {
         if sphere.vector().coordinate_square().is_finite() {
             Ok(sphere)
         } else {
-            Err(Error::NonFinite { what: "the vector of a sphere of this centre and radius" })
+            Err(Error::NonFinite {
+                what: "the vector of a sphere of this centre and radius",
+            })
         }
     }
 
@@ -80,14 +84,20 @@ impl Sphere {
     /// The oriented sphere as a vector of R^{3,1}.
     #[must_use]
     pub const fn cycle(self) -> Cycle {
-        Cycle { centre: self.centre, radius: self.radius }
+        Cycle {
+            centre: self.centre,
+            radius: self.radius,
+        }
     }
 }
 
 impl Neg for Sphere {
     type Output = Self;
     fn neg(self) -> Self {
-        Self { centre: self.centre, radius: -self.radius }
+        Self {
+            centre: self.centre,
+            radius: -self.radius,
+        }
     }
 }
 

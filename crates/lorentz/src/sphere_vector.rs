@@ -19,7 +19,10 @@ use crate::{Error, LorentzVector, Object, Plane, Point, Sphere};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "LorentzVector", into = "LorentzVector"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "LorentzVector", into = "LorentzVector")
+)]
 pub struct SphereVector {
     vector: LorentzVector,
 }
@@ -34,7 +37,9 @@ impl SphereVector {
             // Through the recovered object, so that the unit vector is one to the last bit that matters.
             Object::Sphere(sphere) => Ok(sphere.into()),
             Object::Plane(plane) => Ok(plane.into()),
-            Object::Point { .. } | Object::Infinity { .. } => Err(Error::LightLike { square: vector.square() }),
+            Object::Point { .. } | Object::Infinity { .. } => Err(Error::LightLike {
+                square: vector.square(),
+            }),
         }
     }
 
@@ -90,7 +95,9 @@ impl SphereVector {
     /// surface for points nearby. With the point at infinity it is minus the curvature.
     #[must_use]
     pub fn product_with_point(self, point: Point) -> f64 {
-        point.position().map_or(-self.vector.o, |position| self.point_product_and_terms(position).0)
+        point.position().map_or(-self.vector.o, |position| {
+            self.point_product_and_terms(position).0
+        })
     }
 
     /// Whether the point lies on the sphere or the plane.
@@ -136,7 +143,11 @@ pub(crate) fn product_and_terms(s: LorentzVector, t: LorentzVector) -> (f64, f64
     let ratio = 0.5 * (s.o / t.o + t.o / s.o);
     let distance = 0.5 * s.o * t.o * (s.v / s.o).distance_squared(t.v / t.o);
     let central_terms = ratio.abs() + distance.abs();
-    if central_terms <= direct_terms { (ratio - distance, central_terms) } else { (dot - cross, direct_terms) }
+    if central_terms <= direct_terms {
+        (ratio - distance, central_terms)
+    } else {
+        (dot - cross, direct_terms)
+    }
 }
 
 /// Whether a product of unit vectors equals `value`: to the decision tolerance, or to the rounding of its terms.

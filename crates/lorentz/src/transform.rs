@@ -21,7 +21,10 @@ use crate::{Error, LorentzVector, Object, Point, SphereVector};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "[LorentzVector; 5]", into = "[LorentzVector; 5]"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "[LorentzVector; 5]", into = "[LorentzVector; 5]")
+)]
 pub struct LorentzMap {
     /// Images of `e_o, e_1, e_2, e_3, e_inf`.
     columns: [LorentzVector; 5],
@@ -46,8 +49,13 @@ impl LorentzMap {
     /// [`Error::NotALorentzMap`] if they do not have the products of the basis, to 1e-9 of the terms;
     /// [`Error::NonFinite`].
     pub fn from_columns(columns: [LorentzVector; 5]) -> Result<Self, Error> {
-        if !columns.iter().all(|column| column.coordinate_square().is_finite()) {
-            return Err(Error::NonFinite { what: "a column of a Lorentz map" });
+        if !columns
+            .iter()
+            .all(|column| column.coordinate_square().is_finite())
+        {
+            return Err(Error::NonFinite {
+                what: "a column of a Lorentz map",
+            });
         }
         let mut residual = 0.0_f64;
         for (column, unit) in columns.iter().zip(BASIS) {
@@ -57,12 +65,18 @@ impl LorentzMap {
                 residual = residual.max(error.abs() / terms.max(1.0));
             }
         }
-        if residual > ON_QUADRIC { Err(Error::NotALorentzMap { residual }) } else { Ok(Self { columns }) }
+        if residual > ON_QUADRIC {
+            Err(Error::NotALorentzMap { residual })
+        } else {
+            Ok(Self { columns })
+        }
     }
 
     /// The map given by what it does to vectors, which must be linear and preserve the product.
     fn of(image: impl Fn(LorentzVector) -> LorentzVector) -> Self {
-        Self { columns: BASIS.map(image) }
+        Self {
+            columns: BASIS.map(image),
+        }
     }
 
     /// The reflection `x - 2 (x . s) s`: the inversion in a sphere, or the mirror image in a plane.
@@ -78,7 +92,9 @@ impl LorentzMap {
     /// [`Error::NonFinite`].
     pub fn translation(shift: DVec3) -> Result<Self, Error> {
         if !shift.length_squared().is_finite() {
-            return Err(Error::NonFinite { what: "a translation" });
+            return Err(Error::NonFinite {
+                what: "a translation",
+            });
         }
         Ok(Self::of(|x| x.translated(shift)))
     }
@@ -89,7 +105,9 @@ impl LorentzMap {
     /// [`Error::ScaleNotPositive`], [`Error::NonFinite`] if the factor or its inverse is not finite.
     pub fn scaling(factor: f64) -> Result<Self, Error> {
         if !(factor.is_finite() && factor.recip().is_finite()) && factor != 0.0 {
-            return Err(Error::NonFinite { what: "a scale factor" });
+            return Err(Error::NonFinite {
+                what: "a scale factor",
+            });
         }
         if factor <= 0.0 {
             return Err(Error::ScaleNotPositive { factor });
@@ -102,7 +120,12 @@ impl LorentzMap {
     /// # Errors
     /// [`Error::NonFinite`], [`Error::ZeroNormal`].
     pub fn rotation(rotation: DQuat) -> Result<Self, Error> {
-        let largest = rotation.x.abs().max(rotation.y.abs()).max(rotation.z.abs()).max(rotation.w.abs());
+        let largest = rotation
+            .x
+            .abs()
+            .max(rotation.y.abs())
+            .max(rotation.z.abs())
+            .max(rotation.w.abs());
         if !rotation.is_finite() {
             return Err(Error::NonFinite { what: "a rotation" });
         }
@@ -181,7 +204,9 @@ impl LorentzMap {
 impl Mul for LorentzMap {
     type Output = Self;
     fn mul(self, first: Self) -> Self {
-        Self { columns: first.columns.map(|column| self.map_vector(column)) }
+        Self {
+            columns: first.columns.map(|column| self.map_vector(column)),
+        }
     }
 }
 

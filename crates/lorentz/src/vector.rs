@@ -101,7 +101,11 @@ impl LorentzVector {
     /// The largest coordinate, in magnitude.
     #[must_use]
     pub fn max_abs(self) -> f64 {
-        self.v.abs().max_element().max(self.o.abs()).max(self.inf.abs())
+        self.v
+            .abs()
+            .max_element()
+            .max(self.o.abs())
+            .max(self.inf.abs())
     }
 
     /// Whether all coordinates are finite.
@@ -135,7 +139,9 @@ impl LorentzVector {
     pub fn recover(self) -> Result<Object, Error> {
         let largest = self.max_abs();
         if !self.is_finite() {
-            return Err(Error::NonFinite { what: "a Lorentz vector" });
+            return Err(Error::NonFinite {
+                what: "a Lorentz vector",
+            });
         }
         if largest == 0.0 {
             return Err(Error::ZeroVector);
@@ -152,7 +158,9 @@ impl LorentzVector {
                     Sphere::new(normalised.v / normalised.o, 1.0 / normalised.o).map(Object::Sphere)
                 }
             }
-            CausalType::TimeLike => Err(Error::TimeLike { square: self.square() }),
+            CausalType::TimeLike => Err(Error::TimeLike {
+                square: self.square(),
+            }),
         }
     }
 
@@ -162,7 +170,10 @@ impl LorentzVector {
             return Ok(Object::Infinity { scale: self.inf });
         }
         let point = Point::new(self.v / self.o)?;
-        Ok(Object::Point { point, scale: self.o })
+        Ok(Object::Point {
+            point,
+            scale: self.o,
+        })
     }
 
     /// Whether a unit vector is a plane: its curvature vanishes to rounding, and `v` is a unit vector without its help.
@@ -188,7 +199,11 @@ impl LorentzVector {
 fn power_of_two_near(x: f64) -> f64 {
     // The exponent alone, by clearing the mantissa; subnormal numbers keep their value.
     let exponent_bits = x.to_bits() & 0x7ff0_0000_0000_0000;
-    if exponent_bits == 0 { x } else { f64::from_bits(exponent_bits) }
+    if exponent_bits == 0 {
+        x
+    } else {
+        f64::from_bits(exponent_bits)
+    }
 }
 
 impl Add for LorentzVector {
