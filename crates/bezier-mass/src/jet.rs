@@ -132,27 +132,65 @@ impl PatchJet<DVec3> {
     /// the weight vanishes too, where it is the normal of the asymptotic plane (of either orientation).
     #[must_use]
     pub fn normal(&self) -> Option<DVec3> {
-        let normal = self.unscaled_normal();
-        let scale = self.value.magnitude() * self.du.magnitude() * self.dv.magnitude();
-        if normal.length() > NORMAL_ROUNDING * scale {
+        let Self { value, du, dv, .. } = *self;
+        self.oriented(
+            plane_normal(value, du, dv),
+            NORMAL_ROUNDING * plane_size(value, du, dv),
+        )
+    }
+
+    /// The normal, or its limit on the way from the middle of the parameter square to `(u, v)`.
+    pub(crate) fn normal_or_limit(&self, u: f64, v: f64) -> Option<DVec3> {
+        self.normal().or_else(|| {
+            let Self {
+                value: h,
+                du,
+                dv,
+                duu,
+                duv,
+                dvv,
+            } = *self;
+            let by_u = plane_normal(h, duu, dv) + plane_normal(h, du, duv);
+            let by_v = plane_normal(h, duv, dv) + plane_normal(h, du, dvv);
+            let sizes =
+                [(duu, dv), (du, duv), (duv, dv), (du, dvv)].map(|(a, b)| plane_size(h, a, b));
+            let (a, b) = (0.5 - u, 0.5 - v);
+            self.oriented(
+                by_u * a + by_v * b,
+                NORMAL_ROUNDING * sizes.iter().sum::<f64>(),
+            )
+        })
+    }
+
+    /// A multiple of the normal made a unit vector, on the side of `P_u x P_v`.
+    fn oriented(&self, normal: DVec3, rounding: f64) -> Option<DVec3> {
+        let normal = if self.value.weight < 0.0 {
+            -normal
+        } else {
+            normal
+        };
+        if normal.length() > rounding {
             normal.try_normalize()
         } else {
             None
         }
     }
-
-    /// `w^2 (P_u x P_v)` up to the factor `|w|`: a polynomial in the parameters up to its sign.
-    fn unscaled_normal(&self) -> DVec3 {
-        let Self {
-            value: h, du, dv, ..
-        } = *self;
-        let normal = du.weighted.cross(dv.weighted) * h.weight
-            + dv.weighted.cross(h.weighted) * du.weight
-            + h.weighted.cross(du.weighted) * dv.weight;
-        if h.weight < 0.0 { -normal } else { normal }
-    }
 }
 
-/// A normal shorter than this fraction of the product of the three mass points that span it is rounding
-/// error: each of the nine products of three coordinates carries about four units in the last place.
-const NORMAL_ROUNDING: f64 = 32.0 * f64::EPSILON;
+/// The normal of the plane through three mass points: the Euclidean part of their exterior product.
+#[inline]
+fn plane_normal(a: MassPoint<DVec3>, b: MassPoint<DVec3>, c: MassPoint<DVec3>) -> DVec3 {
+    b.weighted.cross(c.weighted) * a.weight
+        + c.weighted.cross(a.weighted) * b.weight
+        + a.weighted.cross(b.weighted) * c.weight
+}
+
+/// The size of the terms of [`plane_normal`].
+fn plane_size(a: MassPoint<DVec3>, b: MassPoint<DVec3>, c: MassPoint<DVec3>) -> f64 {
+    let [x, y, z] = [a, b, c].map(|h| h.weighted.magnitude());
+    a.weight.abs() * y * z + b.weight.abs() * z * x + c.weight.abs() * x * y
+}
+
+/// A normal shorter than this fraction of its terms is rounding error: its nine products of three coordinates
+/// that carry a few units in the last place each.
+const NORMAL_ROUNDING: f64 = 64.0 * f64::EPSILON;

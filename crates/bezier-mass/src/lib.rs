@@ -1,20 +1,24 @@
 //! Rational Bézier and B-spline curves and patches whose control points may be points or vectors
 
+mod biquadratic;
 mod curve;
 mod error;
 mod homography;
 mod jet;
 mod mass_point;
+mod patch;
 mod quadratic;
 mod vector_space;
 
 pub mod bernstein;
 
+pub use biquadratic::Biquadratic;
 pub use curve::BezierCurve;
 pub use error::Error;
 pub use homography::{Homography, Parameter};
 pub use jet::{CurveJet, Partials, PatchJet};
 pub use mass_point::{MassPoint, MassPointKind};
+pub use patch::BezierPatch;
 pub use quadratic::Quadratic;
 pub use vector_space::VectorSpace;
 

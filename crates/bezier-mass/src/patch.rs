@@ -1,0 +1,433 @@
+//! Tensor-product rational patches of any bidegree.
+
+use crate::curve::position_at;
+use crate::{
+    BezierCurve, Error, Homography, MassPoint, Parameter, PatchJet, VectorSpace, bernstein,
+};
+use glam::DVec3;
+
+/// A rational tensor-product Bézier patch of any bidegree `(m, n)` with mass control points.
+///
+/// `h(u, v) = sum_ij B_i(u) B_j(v) h_ij`. The control net is stored row by row: row `i` is a control polygon
+/// along `v`. For bidegree (2, 2) without allocation see [`Biquadratic`](crate::Biquadratic).
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "ControlNet<V>", into = "ControlNet<V>")
+)]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "V: VectorSpace + serde::Serialize"))
+)]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(deserialize = "V: VectorSpace + serde::Deserialize<'de>"))
+)]
+pub struct BezierPatch<V> {
+    degrees: [usize; 2],
+    control: Vec<MassPoint<V>>,
+}
+
+/// What a patch is written as: the rows of its control net.
+#[cfg(feature = "serde")]
+type ControlNet<V> = Vec<Vec<MassPoint<V>>>;
+
+impl<V: VectorSpace> BezierPatch<V> {
+    /// The patch of bidegree `degrees` (in `u`, in `v`) with the control net `control`, row by row.
+    ///
+    /// # Errors
+    /// [`Error::WrongCount`] unless there are `(m + 1) (n + 1)` control mass points; [`Error::NonFinite`].
+    pub fn new(degrees: [usize; 2], control: Vec<MassPoint<V>>) -> Result<Self, Error> {
+        let needed = degrees
+            .map(|degree| degree.saturating_add(1))
+            .into_iter()
+            .fold(1, usize::saturating_mul);
+        if control.len() != needed {
+            return Err(Error::WrongCount {
+                what: "control mass points of the net",
+                found: control.len(),
+                needed,
+            });
+        }
+        for &mass_point in &control {
+            mass_point.checked()?;
+        }
+        Ok(Self { degrees, control })
+    }
+
+    /// The patch whose control net has these rows, each a control polygon along `v`.
+    ///
+    /// # Errors
+    /// [`Error::WrongCount`] for no rows, empty rows or rows of different lengths; [`Error::NonFinite`].
+    pub fn from_rows<R: AsRef<[MassPoint<V>]>>(rows: &[R]) -> Result<Self, Error> {
+        let columns = rows.first().map_or(0, |row| row.as_ref().len());
+        if columns == 0 {
+            return Err(Error::WrongCount {
+                what: "control mass points of the first row",
+                found: 0,
+                needed: 1,
+            });
+        }
+        if let Some(row) = rows.iter().find(|row| row.as_ref().len() != columns) {
+            let found = row.as_ref().len();
+            return Err(Error::WrongCount {
+                what: "control mass points of a row",
+                found,
+                needed: columns,
+            });
+        }
+        let control = rows
+            .iter()
+            .flat_map(|row| row.as_ref().iter().copied())
+            .collect();
+        Self::new([rows.len() - 1, columns - 1], control)
+    }
+
+    /// The polynomial patch of bidegree `degrees` with these control points, all of weight one.
+    ///
+    /// # Errors
+    /// As [`BezierPatch::new`].
+    pub fn polynomial(degrees: [usize; 2], points: &[V]) -> Result<Self, Error> {
+        Self::new(
+            degrees,
+            points
+                .iter()
+                .map(|&position| MassPoint::point(position, 1.0))
+                .collect(),
+        )
+    }
+
+    /// The patch with a control net that is known to be right.
+    pub(crate) const fn from_checked(degrees: [usize; 2], control: Vec<MassPoint<V>>) -> Self {
+        Self { degrees, control }
+    }
+
+    /// The degrees in `u` and `v`.
+    #[must_use]
+    pub fn degrees(&self) -> [usize; 2] {
+        self.degrees
+    }
+
+    /// The control net, row by row.
+    #[must_use]
+    pub fn control(&self) -> &[MassPoint<V>] {
+        &self.control
+    }
+
+    /// The rows of the control net: one control polygon along `v` for each `i`.
+    pub fn rows(&self) -> impl ExactSizeIterator<Item = &[MassPoint<V>]> + Clone {
+        self.control.chunks_exact(self.degrees[1] + 1)
+    }
+
+    /// The mass point at `(u, v)`: a point, or a vector where the weight vanishes to rounding. Does not allocate.
+    #[must_use]
+    pub fn at(&self, u: f64, v: f64) -> MassPoint<V> {
+        let value =
+            bernstein::evaluate_terms(self.rows().map(|row| bernstein::evaluate(row, v)), u);
+        value.settled(self.weight_terms(u, v, value.weight))
+    }
+
+    /// The absolute terms of the weight's Bernstein sum, which bound its rounding error; or zero if `weight` is far
+    /// too large for that to matter.
+    fn weight_terms(&self, u: f64, v: f64, weight: f64) -> f64 {
+        let reach = |t: f64, degree: usize| ((1.0 - t).abs() + t.abs()).powi(degree as i32);
+        let largest = self
+            .control
+            .iter()
+            .fold(0.0, |largest: f64, h| largest.max(h.weight.abs()));
+        if weight.abs() > 1e-6 * largest * reach(u, self.degrees[0]) * reach(v, self.degrees[1]) {
+            return 0.0;
+        }
+        let [b, c] = [(self.degrees[0], u), (self.degrees[1], v)]
+            .map(|(degree, t)| bernstein::basis(degree, t));
+        let row = |row: &[MassPoint<V>]| -> f64 {
+            row.iter().zip(&c).map(|(h, c)| (h.weight * c).abs()).sum()
+        };
+        self.rows().zip(&b).map(|(h, b)| b.abs() * row(h)).sum()
+    }
+
+    /// The position at `(u, v)`.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] if a parameter is; [`Error::AtInfinity`] where the weight vanishes.
+    pub fn point(&self, u: f64, v: f64) -> Result<V, Error> {
+        position_at(self.at(u, v), if v.is_finite() { u } else { v })
+    }
+
+    /// The value with its partial derivatives to second order at `(u, v)`, as mass points.
+    #[must_use]
+    pub fn jet(&self, u: f64, v: f64) -> PatchJet<V> {
+        let row_jets: Vec<[MassPoint<V>; 3]> =
+            self.rows().map(|row| bernstein::jet(row, v)).collect();
+        let along_u = |order: usize| -> [MassPoint<V>; 3] {
+            let column: Vec<_> = row_jets.iter().map(|jet| jet[order]).collect();
+            bernstein::jet(&column, u)
+        };
+        let ([_, du, duu], [dv, duv, _], [dvv, _, _]) = (along_u(0), along_u(1), along_u(2));
+        PatchJet {
+            value: self.at(u, v),
+            du,
+            dv,
+            duu,
+            duv,
+            dvv,
+        }
+    }
+
+    /// The iso-curve at fixed `u`, a curve in `v`.
+    #[must_use]
+    pub fn curve_at_u(&self, u: f64) -> BezierCurve<V> {
+        self.transposed().curve_at_v(u)
+    }
+
+    /// The iso-curve at fixed `v`, a curve in `u`.
+    #[must_use]
+    pub fn curve_at_v(&self, v: f64) -> BezierCurve<V> {
+        BezierCurve::from_checked(self.rows().map(|row| bernstein::evaluate(row, v)).collect())
+    }
+
+    /// The barycentric middle curves: the first along `u` (at `v = 1/2`), the second along `v`.
+    ///
+    /// Control `i` of the first is the barycentre of row `i` with the binomial coefficients as weights, not divided by
+    /// their sum.
+    #[must_use]
+    pub fn middle_curves(&self) -> [BezierCurve<V>; 2] {
+        [self, &self.transposed()].map(|patch| {
+            let sum = f64::powi(2.0, patch.degrees[1] as i32);
+            BezierCurve::from_checked(
+                patch
+                    .rows()
+                    .map(|row| bernstein::evaluate(row, 0.5) * sum)
+                    .collect(),
+            )
+        })
+    }
+
+    /// The patch with `u` and `v` exchanged.
+    #[must_use]
+    pub fn transposed(&self) -> Self {
+        let [m, n] = self.degrees;
+        let control = (0..=n)
+            .flat_map(|j| self.rows().map(move |row| row[j]))
+            .collect();
+        Self {
+            degrees: [n, m],
+            control,
+        }
+    }
+
+    /// The patch with every row replaced by `change(row)`; all of these have one length.
+    fn map_rows(&self, change: impl Fn(&[MassPoint<V>]) -> Vec<MassPoint<V>>) -> Self {
+        let control: Vec<_> = self.rows().flat_map(change).collect();
+        let columns = control.len() / (self.degrees[0] + 1);
+        Self {
+            degrees: [self.degrees[0], columns - 1],
+            control,
+        }
+    }
+
+    /// The patch run backwards in `u`. Its normal changes side.
+    #[must_use]
+    pub fn reversed_u(&self) -> Self {
+        self.transposed().reversed_v().transposed()
+    }
+
+    /// The patch run backwards in `v`. Its normal changes side.
+    #[must_use]
+    pub fn reversed_v(&self) -> Self {
+        self.map_rows(|row| row.iter().rev().copied().collect())
+    }
+
+    /// The patch after a homographic change of each parameter.
+    #[must_use]
+    pub fn reparametrised(&self, u: Homography, v: Homography) -> Self {
+        let along_v = |patch: &Self, h: Homography| {
+            patch.map_rows(|row| {
+                bernstein::reparametrise(row, h.start().barycentric(), h.end().barycentric())
+            })
+        };
+        along_v(&along_v(self, v).transposed(), u).transposed()
+    }
+
+    /// The part over `[u[0], u[1]] x [v[0], v[1]]`; the ends may lie outside `[0, 1]` or at infinity.
+    ///
+    /// # Errors
+    /// [`Error::SingularHomography`] if two ends coincide; [`Error::NonFinite`].
+    pub fn sub_patch(
+        &self,
+        u: [impl Into<Parameter>; 2],
+        v: [impl Into<Parameter>; 2],
+    ) -> Result<Self, Error> {
+        let ([u0, u1], [v0, v1]) = (u, v);
+        Ok(self.reparametrised(Homography::between(u0, u1)?, Homography::between(v0, v1)?))
+    }
+
+    /// de Casteljau's subdivision at `u`: the parts below and above.
+    #[must_use]
+    pub fn subdivide_u(&self, u: f64) -> (Self, Self) {
+        let (below, above) = self.transposed().subdivide_v(u);
+        (below.transposed(), above.transposed())
+    }
+
+    /// de Casteljau's subdivision at `v`: the parts below and above.
+    #[must_use]
+    pub fn subdivide_v(&self, v: f64) -> (Self, Self) {
+        let below = self.map_rows(|row| bernstein::subdivide(row, v).0);
+        let above = self.map_rows(|row| bernstein::subdivide(row, v).1);
+        (below, above)
+    }
+
+    /// The same patch written with degrees at least `degrees`.
+    #[must_use]
+    pub fn elevated_to(&self, degrees: [usize; 2]) -> Self {
+        let along_v = self
+            .map_rows(|row| bernstein::elevate_to(row, degrees[1]))
+            .transposed();
+        along_v
+            .map_rows(|row| bernstein::elevate_to(row, degrees[0]))
+            .transposed()
+    }
+
+    /// The patch with every control mass point mapped by `map`, which should be linear in the mass point.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] if `map` produces such a value.
+    pub fn map<W: VectorSpace>(
+        &self,
+        map: impl Fn(MassPoint<V>) -> MassPoint<W>,
+    ) -> Result<BezierPatch<W>, Error> {
+        BezierPatch::new(self.degrees, self.control.iter().map(|&h| map(h)).collect())
+    }
+}
+
+impl BezierPatch<DVec3> {
+    /// The unit normal along `dP/du x dP/dv`.
+    ///
+    /// Computed from the plane through `h`, `h_u`, `h_v`, without a division by the weight. Where that is undetermined
+    /// (a collapsed edge, a pole) it is the limit on the way from the middle of the patch; `None` where this is not
+    /// determined by the derivatives to second order either.
+    #[must_use]
+    pub fn normal(&self, u: f64, v: f64) -> Option<DVec3> {
+        self.jet(u, v).normal_or_limit(u, v)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<V: VectorSpace> TryFrom<ControlNet<V>> for BezierPatch<V> {
+    type Error = Error;
+
+    fn try_from(rows: ControlNet<V>) -> Result<Self, Error> {
+        Self::from_rows(&rows)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<V: VectorSpace> From<BezierPatch<V>> for ControlNet<V> {
+    fn from(patch: BezierPatch<V>) -> Self {
+        patch.rows().map(<[_]>::to_vec).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::dvec3;
+
+    /// A bicubic-by-quadratic saddle with all weights different, one of them zero and one negative.
+    fn patch() -> Result<BezierPatch<DVec3>, Error> {
+        let weight = |i: usize, j: usize| [3.0, 1.0, 0.0, 2.0][i] + [0.5, -0.25, 1.0][j];
+        let rows: Vec<Vec<_>> = (0..4)
+            .map(|i| {
+                let (x, w) = (i as f64, weight);
+                (0..3)
+                    .map(|j| {
+                        MassPoint::point(dvec3(x, j as f64, x * j as f64 - 0.5 * x * x), w(i, j))
+                    })
+                    .collect()
+            })
+            .collect();
+        BezierPatch::from_rows(&rows)
+    }
+
+    #[test]
+    fn partial_derivatives_agree_with_differences() -> Result<(), Error> {
+        let (patch, u, v, step) = (patch()?, 0.4, 0.7, 1e-4);
+        let at = |i: i32, j: i32| patch.point(u + f64::from(i) * step, v + f64::from(j) * step);
+        let partials = patch
+            .jet(u, v)
+            .partials()
+            .ok_or(Error::AtInfinity { t: u })?;
+        let du = (at(1, 0)? - at(-1, 0)?) / (2.0 * step);
+        let dv = (at(0, 1)? - at(0, -1)?) / (2.0 * step);
+        let duu = (at(1, 0)? - 2.0 * at(0, 0)? + at(-1, 0)?) / (step * step);
+        let dvv = (at(0, 1)? - 2.0 * at(0, 0)? + at(0, -1)?) / (step * step);
+        let duv = (at(1, 1)? - at(1, -1)? - at(-1, 1)? + at(-1, -1)?) / (4.0 * step * step);
+        assert!((partials.position - at(0, 0)?).length() < 1e-15);
+        for (exact, difference, tolerance) in [
+            (partials.du, du, 1e-6),
+            (partials.dv, dv, 1e-6),
+            (partials.duu, duu, 1e-5),
+            (partials.duv, duv, 1e-5),
+            (partials.dvv, dvv, 1e-5),
+        ] {
+            assert!(
+                (exact - difference).length() < tolerance * (1.0 + exact.length()),
+                "{exact} against {difference}"
+            );
+        }
+        let normal = patch.normal(u, v).unwrap_or(DVec3::NAN);
+        assert!((normal - partials.du.cross(partials.dv).normalize()).length() < 1e-14);
+        Ok(())
+    }
+
+    #[test]
+    fn every_form_of_the_patch_is_the_same_surface() -> Result<(), Error> {
+        let patch = patch()?;
+        assert_eq!(patch.degrees(), [3, 2]);
+        let raised = patch.elevated_to([4, 5]);
+        assert_eq!(raised.degrees(), [4, 5]);
+        let part = patch.sub_patch([0.75, 0.25], [Parameter::from(0.5), Parameter::INFINITY])?;
+        for (u, v) in [(0.1, 0.2), (0.5, 0.5), (0.9, 0.3)] {
+            let point = patch.point(u, v)?;
+            assert!((raised.point(u, v)? - point).length() < 1e-13);
+            assert!((patch.transposed().point(v, u)? - point).length() < 1e-13);
+            assert!((patch.reversed_u().point(1.0 - u, v)? - point).length() < 1e-13);
+            assert!((patch.curve_at_u(u).point(v)? - point).length() < 1e-13);
+            assert!((patch.curve_at_v(v).point(u)? - point).length() < 1e-13);
+            let homography = Homography::between(0.5, Parameter::INFINITY)?;
+            let outside = homography.apply(v).value().unwrap_or(f64::NAN);
+            let expected = patch.point(0.75 - 0.5 * u, outside)?;
+            assert!((part.point(u, v)? - expected).length() < 1e-12 * expected.length());
+        }
+        let [along_u, along_v] = patch.middle_curves();
+        assert!((along_u.point(0.3)? - patch.point(0.3, 0.5)?).length() < 1e-13);
+        assert!((along_v.point(0.3)? - patch.point(0.5, 0.3)?).length() < 1e-13);
+        Ok(())
+    }
+
+    #[test]
+    fn malformed_nets_are_refused() {
+        let one = MassPoint::point(1.0, 1.0);
+        assert!(matches!(
+            BezierPatch::new([1, 1], vec![one; 3]),
+            Err(Error::WrongCount { needed: 4, .. })
+        ));
+        assert!(matches!(
+            BezierPatch::new([usize::MAX, 1], vec![one; 3]),
+            Err(Error::WrongCount { .. })
+        ));
+        assert!(matches!(
+            BezierPatch::from_rows(&[vec![one], vec![one; 2]]),
+            Err(Error::WrongCount { .. })
+        ));
+        assert!(matches!(
+            BezierPatch::<f64>::from_rows::<Vec<_>>(&[]),
+            Err(Error::WrongCount { .. })
+        ));
+        assert!(matches!(
+            BezierPatch::polynomial([0, 0], &[f64::NAN]),
+            Err(Error::NonFinite { .. })
+        ));
+    }
+}
