@@ -1,0 +1,331 @@
+//! What a demo is handed: the sizes asked for, and the folder that it fills.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Component, Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::{Context as _, Result, ensure};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde_json::Value;
+
+use crate::figure::Figure;
+use crate::image::{Image, write_animation};
+use crate::report::{Measured, Picture, Report, Target};
+
+/// The flags that all demos share.
+#[derive(clap::Args, Clone, Debug)]
+pub struct Settings {
+    /// Folder in which the demo's own folder is made
+    #[arg(long, value_name = "DIR", default_value = "target/gallery")]
+    pub out: PathBuf,
+    /// Width of pictures in pixels [default: 1280, quick 480]
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=16384))]
+    pub width: Option<u32>,
+    /// Height of rendered pictures in pixels [default: three quarters of the width]
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=16384))]
+    pub height: Option<u32>,
+    /// Rays per pixel of rendered pictures [default: 64, quick 16]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    pub samples: Option<u32>,
+    /// Seed of everything random
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+    /// Small pictures and few trials
+    #[arg(long)]
+    pub quick: bool,
+}
+
+/// The running demo's sizes, folder and report.
+///
+/// Nothing is drawn at once that could not be thrown away: a file appears under its name only
+/// when it is complete, and `report.json` only when the demo has ended well.
+#[derive(Debug)]
+pub struct Context {
+    settings: Settings,
+    folder: PathBuf,
+    start: Instant,
+    report: Report,
+}
+
+impl Context {
+    pub(super) fn open(demo: &str, paper: &str, settings: Settings) -> Result<Self> {
+        let folder = settings.out.join(demo);
+        fs::create_dir_all(&folder)
+            .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+        // An older run's report must not vouch for this run's files.
+        match fs::remove_file(folder.join("report.json")) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error.into()),
+            _ => {}
+        }
+        let report = Report {
+            demo: demo.into(),
+            paper: paper.into(),
+            seconds: 0.0,
+            files: Vec::new(),
+            pictures: Vec::new(),
+            numbers: Vec::new(),
+        };
+        Ok(Self {
+            settings,
+            folder,
+            start: Instant::now(),
+            report,
+        })
+    }
+
+    pub(super) fn close(mut self) -> Result<Report> {
+        self.report.seconds = (self.start.elapsed().as_secs_f64() * 1e3).round() / 1e3;
+        let mut text = serde_json::to_string_pretty(&self.report)?;
+        text.push('\n');
+        write_atomically(&self.folder.join("report.json"), |file| {
+            file.write_all(text.as_bytes())
+        })?;
+        Ok(self.report)
+    }
+
+    /// Width of pictures in pixels.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.settings
+            .width
+            .unwrap_or(if self.quick() { 480 } else { 1280 })
+    }
+
+    /// Height of rendered pictures in pixels.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.settings
+            .height
+            .unwrap_or((self.width() * 3).div_ceil(4))
+    }
+
+    /// Rays per pixel of rendered pictures.
+    #[must_use]
+    pub fn samples(&self) -> u32 {
+        self.settings
+            .samples
+            .unwrap_or(if self.quick() { 16 } else { 64 })
+    }
+
+    /// Seed of everything random.
+    #[must_use]
+    pub const fn seed(&self) -> u64 {
+        self.settings.seed
+    }
+
+    /// Whether the run should be small: a few seconds at most, every number still measured.
+    #[must_use]
+    pub const fn quick(&self) -> bool {
+        self.settings.quick
+    }
+
+    /// `full`, or `quick` in a quick run: a number of trials, of levels, of frames.
+    pub fn pick<T>(&self, full: T, quick: T) -> T {
+        if self.quick() { quick } else { full }
+    }
+
+    /// Records a number with its target; it is in `report.json` under `key`.
+    ///
+    /// `value` may be a number, a text or an array (`vec![..]`).
+    pub fn number(&mut self, key: &str, value: impl Into<Value>, target: Target) {
+        let measured = Measured {
+            key: key.into(),
+            value: value.into(),
+            target,
+        };
+        self.report.numbers.retain(|known| known.key != key);
+        self.report.numbers.push(measured);
+    }
+
+    /// Writes a file that `content` fills. `name` is a plain file name with its ending.
+    ///
+    /// # Errors
+    /// A name with a folder in it, and whatever writing reports; no file is left then.
+    pub fn file<E: Into<anyhow::Error>>(
+        &mut self,
+        name: &str,
+        content: impl FnOnce(&mut BufWriter<File>) -> std::result::Result<(), E>,
+    ) -> Result<()> {
+        let mut parts = Path::new(name).components();
+        let plain = matches!(
+            (parts.next(), parts.next()),
+            (Some(Component::Normal(_)), None)
+        );
+        ensure!(plain, "{name:?} is not a plain file name");
+        write_atomically(&self.folder.join(name), content)
+            .with_context(|| format!("cannot write {}", self.folder.join(name).display()))?;
+        if !self.report.files.iter().any(|known| known == name) {
+            self.report.files.push(name.into());
+        }
+        Ok(())
+    }
+
+    /// Writes `text` as a file.
+    ///
+    /// # Errors
+    /// As [`Context::file`].
+    pub fn text(&mut self, name: &str, text: &str) -> Result<()> {
+        self.file(name, |file| file.write_all(text.as_bytes()))
+    }
+
+    /// Draws a figure as `NAME.png` and `NAME.svg`. Names start with `figure`.
+    ///
+    /// `caption` stands under the picture, `alt` describes it for who cannot see it.
+    ///
+    /// # Errors
+    /// As [`Context::file`].
+    pub fn figure(&mut self, name: &str, figure: &Figure, caption: &str, alt: &str) -> Result<()> {
+        let image = figure.image(self.width());
+        self.picture(name, &image, caption, alt)?;
+        self.text(&format!("{name}.svg"), &figure.svg(alt))
+    }
+
+    /// Writes a finished picture as `NAME.png`.
+    ///
+    /// # Errors
+    /// As [`Context::file`].
+    pub fn picture(&mut self, name: &str, image: &Image, caption: &str, alt: &str) -> Result<()> {
+        self.file(&format!("{name}.png"), |file| image.write_png(file))?;
+        self.show(name, caption, alt);
+        Ok(())
+    }
+
+    /// Writes frames of equal size as the animated `NAME.png`.
+    ///
+    /// # Errors
+    /// As [`Context::file`], and if there is no frame or the sizes differ.
+    pub fn animation(
+        &mut self,
+        name: &str,
+        frames: &[Image],
+        frames_per_second: u16,
+        caption: &str,
+        alt: &str,
+    ) -> Result<()> {
+        self.file(&format!("{name}.png"), |file| {
+            write_animation(frames, frames_per_second, file)
+        })?;
+        self.show(name, caption, alt);
+        Ok(())
+    }
+
+    fn show(&mut self, name: &str, caption: &str, alt: &str) {
+        let file = format!("{name}.png");
+        self.report.pictures.retain(|known| known.file != file);
+        self.report.pictures.push(Picture {
+            file,
+            caption: caption.into(),
+            alt: alt.into(),
+        });
+    }
+
+    /// A progress bar over `length` steps; it draws only on a terminal and vanishes when dropped.
+    #[must_use]
+    pub fn progress(&self, what: &str, length: u64) -> ProgressBar {
+        progress_bar(&format!("{}: {what}", self.report.demo), length)
+    }
+}
+
+/// The one look of all progress bars.
+pub(crate) fn progress_bar(what: &str, length: u64) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr_with_hz(10));
+    if let Ok(style) =
+        ProgressStyle::with_template("{msg:32} {wide_bar:.blue/white} {pos:>5}/{len} {eta:>4}")
+    {
+        bar.set_style(style);
+    }
+    bar.set_message(what.to_owned());
+    bar
+}
+
+/// Writes under a temporary name beside `path` and renames; on failure nothing is left.
+pub(crate) fn write_atomically<E: Into<anyhow::Error>>(
+    path: &Path,
+    content: impl FnOnce(&mut BufWriter<File>) -> std::result::Result<(), E>,
+) -> Result<()> {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.part", std::process::id()));
+    let temporary = path.with_file_name(name);
+    let write = || -> Result<()> {
+        let mut writer = BufWriter::new(File::create(&temporary)?);
+        content(&mut writer).map_err(Into::into)?;
+        writer
+            .into_inner()
+            .map_err(io::IntoInnerError::into_error)?
+            .sync_all()?;
+        fs::rename(&temporary, path)?;
+        Ok(())
+    };
+    write().inspect_err(|_| {
+        // The failure itself is what the caller must hear of.
+        let _ = fs::remove_file(&temporary);
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use anyhow::bail;
+
+    fn settings(name: &str) -> Settings {
+        let out = std::env::temp_dir().join(format!("xtask-context-{name}-{}", std::process::id()));
+        Settings {
+            out,
+            width: None,
+            height: None,
+            samples: None,
+            seed: 1,
+            quick: true,
+        }
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        let mut names: Vec<_> = entries
+            .map(|e| e.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_failing_writer_leaves_nothing_behind() {
+        let settings = settings("failing");
+        let out = settings.out.clone();
+        let mut context = Context::open("d", "p", settings).unwrap();
+        context.text("whole.txt", "old").unwrap();
+        let failed = context.file("whole.txt", |file| {
+            file.write_all(b"half")?;
+            bail!("no more")
+        });
+        assert!(failed.is_err());
+        assert_eq!(fs::read_to_string(out.join("d/whole.txt")).unwrap(), "old");
+        assert_eq!(names(&out.join("d")), ["whole.txt"]);
+        assert!(context.text("../outside.txt", "").is_err());
+        assert!(context.text("", "").is_err());
+        fs::remove_dir_all(out).unwrap();
+    }
+
+    #[test]
+    fn the_report_comes_last_and_an_old_one_goes_first() {
+        let settings = settings("report");
+        let out = settings.out.clone();
+        let mut context = Context::open("d", "p, Fig. 1", settings.clone()).unwrap();
+        context.number("gap", f64::NAN, Target::AtMost(1.0));
+        context.number("gap", 0.5, Target::AtMost(1.0));
+        context.number("free", vec![1, 2], Target::Free);
+        context.text("a.txt", "a").unwrap();
+        let report = context.close().unwrap();
+        assert_eq!(report.missed().count(), 0);
+        let text = fs::read_to_string(out.join("d/report.json")).unwrap();
+        let value: Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(value["demo"], "d");
+        assert_eq!(value["numbers"]["gap"], 0.5);
+        assert_eq!(value["targets"]["gap"]["met"], true);
+        assert_eq!(value["files"], serde_json::json!(["a.txt"]));
+        drop(Context::open("d", "p", settings).unwrap());
+        assert_eq!(names(&out.join("d")), ["a.txt"]);
+        fs::remove_dir_all(out).unwrap();
+    }
+}
