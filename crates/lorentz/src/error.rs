@@ -129,11 +129,14 @@ pub enum Error {
         /// Signed distance of the vertex from the plane.
         distance: f64,
     },
-    /// A parameter interval without extent, or a homography that is not invertible.
-    #[error("the homography is singular: its determinant is {determinant}")]
-    SingularHomography {
-        /// Determinant ad - bc.
-        determinant: f64,
+    /// What the Bézier arithmetic refused: a parameter interval without extent, a number that is not finite.
+    #[error(transparent)]
+    Bezier(#[from] bezier_mass::Error),
+    /// The second curve is not a curve of the second family of the first.
+    #[error("the two curves are not the two families of one cyclide: relative residual {residual}")]
+    NotTheSecondFamily {
+        /// Largest Lie product of a control of one with a control of the other, relative to its terms.
+        residual: f64,
     },
     /// The matrix does not preserve the Lorentz product.
     #[error("the matrix does not preserve the Lorentz product: relative residual {residual}")]

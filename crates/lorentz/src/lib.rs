@@ -1,18 +1,24 @@
 //! Oriented spheres, planes and points as vectors of the Lorentz space L(4,1), and canal surfaces as curves there
+mod canal;
 mod circle;
+pub mod construct;
 mod error;
 mod object;
 mod pencil;
 mod plane;
 mod point;
 mod relation;
+mod roots;
 mod sphere;
+mod sphere_curve;
 mod sphere_vector;
 mod tolerance;
 mod transform;
 mod vector;
 
+pub use canal::{CanalCurve, CanalMember, SurfacePoint};
 pub use circle::{CharacteristicCircle, Circle, Line};
+pub use construct::ConicType;
 pub use error::Error;
 pub use glam; // its types appear in our signatures
 pub use object::Object;
@@ -21,6 +27,7 @@ pub use plane::Plane;
 pub use point::Point;
 pub use relation::{PointPosition, Relation, Side, SpherePosition};
 pub use sphere::{Cycle, Sphere};
+pub use sphere_curve::{SphereCurve, SphereMassPoint, lie_product};
 pub use sphere_vector::SphereVector;
 pub use transform::LorentzMap;
 pub use vector::{CausalType, LorentzVector};

@@ -2,6 +2,7 @@ use std::ops::Neg;
 
 use glam::DVec3;
 
+use crate::vector::power_of_two_near;
 use crate::{Error, LorentzVector};
 
 /// An oriented plane: unit normal and offset, the set of the `x` with `normal . x = offset`.
@@ -95,8 +96,9 @@ pub(crate) fn unit_direction(direction: DVec3) -> Result<DVec3, Error> {
     if largest == 0.0 {
         return Err(Error::ZeroNormal);
     }
-    // First to the size of one: the square of a huge or a tiny vector is out of range.
-    Ok((direction / largest).normalize())
+    // First to the size of one, without rounding: the square of a huge or a tiny vector is out of range.
+    let direction = direction / power_of_two_near(largest);
+    Ok(direction / direction.length())
 }
 
 impl Neg for Plane {

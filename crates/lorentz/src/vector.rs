@@ -1,5 +1,6 @@
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
+use bezier_mass::VectorSpace;
 use glam::DVec3;
 
 use crate::tolerance::{LIGHT_LIKE, ROUNDING, ZERO_COORDINATE};
@@ -195,14 +196,43 @@ impl LorentzVector {
     }
 }
 
-/// The power of two below a positive finite number.
-fn power_of_two_near(x: f64) -> f64 {
+/// The power of two at or below a positive finite number.
+pub(crate) fn power_of_two_near(x: f64) -> f64 {
     // The exponent alone, by clearing the mantissa; subnormal numbers keep their value.
     let exponent_bits = x.to_bits() & 0x7ff0_0000_0000_0000;
     if exponent_bits == 0 {
         x
     } else {
         f64::from_bits(exponent_bits)
+    }
+}
+
+impl VectorSpace for LorentzVector {
+    const ZERO: Self = Self::ZERO;
+
+    #[inline]
+    fn plus(self, other: Self) -> Self {
+        self + other
+    }
+
+    #[inline]
+    fn times(self, factor: f64) -> Self {
+        self * factor
+    }
+
+    #[inline]
+    fn minus(self, other: Self) -> Self {
+        self - other
+    }
+
+    #[inline]
+    fn magnitude(self) -> f64 {
+        self.max_abs()
+    }
+
+    #[inline]
+    fn is_finite(self) -> bool {
+        Self::is_finite(self)
     }
 }
 
