@@ -1,1 +1,16 @@
-//! Dual Bézier, Pythagorean-hodograph and Tschirnhausen curves with exact offsets, ovals, cams and frames
+//! Planar curves whose offsets are exact.
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
+mod class3;
+mod complex;
+mod error;
+mod line;
+mod ph_arc;
+mod t_cubic;
+
+pub use class3::{G1Ends, LineElement};
+pub use error::Error;
+pub use glam;
+pub use line::Line;
+pub use ph_arc::{Contact, PhArc, TQuartic};
+pub use t_cubic::TCubic;

@@ -1,0 +1,180 @@
+//! Why an operation had no answer.
+
+/// Every reason for which this crate refuses.
+///
+/// The numbers inside are the ones that explain the refusal.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A coordinate, parameter or distance is NaN or infinite.
+    #[error("{what} is not finite")]
+    NonFinite {
+        /// The quantity that was given.
+        what: &'static str,
+    },
+    /// A line coordinate vector is zero, so it stands for no line.
+    #[error("control vector {index} is zero: no line")]
+    ZeroLine {
+        /// Position of the vector in the control polygon.
+        index: usize,
+    },
+    /// Class 1 is a pencil of lines through one point and has no curve.
+    #[error("class {class} is a pencil of lines through one point: not a curve")]
+    Pencil {
+        /// The class that was given.
+        class: usize,
+    },
+    /// The number of Farin lines is not the number of Bézier lines less one.
+    #[error("{lines} Bézier lines need {} Farin lines, not {farin}", lines.saturating_sub(1))]
+    FarinCount {
+        /// Number of Bézier lines.
+        lines: usize,
+        /// Number of Farin lines.
+        farin: usize,
+    },
+    /// Two consecutive Bézier lines coincide, or a Farin line coincides with one of them.
+    #[error("Bézier lines {index} and {} coincide with each other or with their Farin line: the weights are undefined", index + 1)]
+    CoincidentLines {
+        /// Position of the first of the two lines.
+        index: usize,
+    },
+    /// The point at this parameter is not finite.
+    #[error("the point at parameter {t} is not finite: its tangent is the line at infinity, or stationary")]
+    AtInfinity {
+        /// Parameter of the point.
+        t: f64,
+    },
+    /// The two normals coincide, so there is no arc of tangents between them.
+    #[error("the normals turn by {turning} rad: no turning, hence no dual arc (keep a straight segment)")]
+    NoTurning {
+        /// Turning angle in radians.
+        turning: f64,
+    },
+    /// The turning of one arc must stay below a half turn.
+    #[error("the normals turn by {turning} rad: an arc turns by less than pi, split it first")]
+    TurningTooLarge {
+        /// Turning angle in radians.
+        turning: f64,
+    },
+    /// The shape parameter of a class-3 arc is positive.
+    #[error("the shape parameter alpha is {alpha}; it must be positive")]
+    NonPositiveAlpha {
+        /// The value that was given.
+        alpha: f64,
+    },
+    /// The denominator f vanishes between the two parameters, so the curve runs to infinity.
+    #[error("the denominator f is {f0} and {f1} at the ends of the interval: the curve passes through infinity between them")]
+    Pole {
+        /// Value of f at the start.
+        f0: f64,
+        /// Value of f at the end.
+        f1: f64,
+    },
+    /// Three points on a line, or coincident points, where a triangle is needed.
+    #[error("the triangle is degenerate: its area is {area}")]
+    DegenerateTriangle {
+        /// Signed area of the triangle.
+        area: f64,
+    },
+    /// The four control points do not satisfy Theorem 1.
+    #[error("the cubic is not a Tschirnhausen cubic: D1^2 and D0 D2 differ by {relative_defect} of their size")]
+    NotTschirnhausen {
+        /// `|D1^2 - D0 D2|` over the larger of the two moduli.
+        relative_defect: f64,
+    },
+    /// A normal or direction has no length.
+    #[error("{what} has length zero: no direction")]
+    ZeroDirection {
+        /// The quantity that was given.
+        what: &'static str,
+    },
+    /// The curvature at an end is zero or infinite; a class-3 arc has neither.
+    #[error("the end radii are {r0} and {r1}: a class-3 arc has no inflection and no infinite curvature at its ends")]
+    NoCurvatureElement {
+        /// Signed radius of curvature at the start.
+        r0: f64,
+        /// Signed radius of curvature at the end.
+        r1: f64,
+    },
+    /// Equal radii are met by a circular arc only, and these elements are not on one circle.
+    #[error("both radii are {radius}: only a circular arc has monotone curvature between them, and the elements are not on one circle")]
+    EqualRadii {
+        /// The common signed radius.
+        radius: f64,
+    },
+    /// No convex arc of monotone curvature joins the two curvature elements.
+    #[error("not admissible: |Q0 Q1| = {centre_distance}, |R0 - R1| = {evolute_length}, legs {lambda0} and {lambda1}; needed: positive legs and |Q0 Q1| < |R0 - R1| < sum of legs")]
+    NotAdmissible {
+        /// Distance of the two centres of curvature.
+        centre_distance: f64,
+        /// Difference of the two radii.
+        evolute_length: f64,
+        /// Leg of the evolute triangle at the larger radius.
+        lambda0: f64,
+        /// Leg of the evolute triangle at the smaller radius.
+        lambda1: f64,
+    },
+    /// The tension beta lies strictly between 0 and 1.
+    #[error("the tension beta is {beta}; it must lie strictly between 0 and 1")]
+    TensionOutOfRange {
+        /// The value that was given.
+        beta: f64,
+    },
+    /// No class-3 arc of one-signed radius meets these ends.
+    #[error("no regular class-3 arc: the tangent legs are {leg0} and {leg1}")]
+    NoRegularArc {
+        /// Signed leg at the start.
+        leg0: f64,
+        /// Signed leg at the end.
+        leg1: f64,
+    },
+    /// A tolerance is not a positive finite number.
+    #[error("the tolerance is {tolerance}; it must be positive and finite")]
+    BadTolerance {
+        /// The value that was given.
+        tolerance: f64,
+    },
+    /// The tolerance is below what double precision resolves at this size.
+    #[error("the tolerance {tolerance} is below the resolution {resolution} of coordinates of this size")]
+    ToleranceTooSmall {
+        /// The value that was given.
+        tolerance: f64,
+        /// The smallest tolerance that can be kept.
+        resolution: f64,
+    },
+    /// The curve is a single point, so it has no direction to offset along.
+    #[error("the curve is a single point: it has no tangent")]
+    SinglePoint,
+    /// Too few control points, knots or samples.
+    #[error("{given} {what} given, at least {needed} needed")]
+    TooFew {
+        /// What there is too little of.
+        what: &'static str,
+        /// How many were given.
+        given: usize,
+        /// How many are needed.
+        needed: usize,
+    },
+    /// The parameter lies outside the domain.
+    #[error("parameter {value} lies outside [{start}, {end}]")]
+    OutsideDomain {
+        /// The parameter that was given.
+        value: f64,
+        /// Start of the domain.
+        start: f64,
+        /// End of the domain.
+        end: f64,
+    },
+    /// A subdivision reached its limit before the tolerance was met.
+    #[error("the piece [{start}, {end}] still misses the tolerance by a factor {excess} after {depth} halvings")]
+    NotConverged {
+        /// Start of the piece in the curve's parameter.
+        start: f64,
+        /// End of the piece.
+        end: f64,
+        /// Error of the piece over the tolerance.
+        excess: f64,
+        /// Number of halvings.
+        depth: u32,
+    },
+}

@@ -1,0 +1,487 @@
+//! The complex form of a rational Pythagorean-hodograph arc: two spinors and a support polynomial.
+
+use glam::{DVec2, DVec3};
+
+use crate::complex::{conj, divide, sqrt, square};
+use crate::{Error, Line};
+
+/// Largest `|w1 - w0|^2 / min(|w0|, |w1|)^2` for which the arc length is integrated by Gauss's rule.
+///
+/// The closed form divides by `|w1 - w0|^2` and loses that many digits; the poles of the integrand
+/// are `|w0| / |w1 - w0| >= 2` away from the arc, where twelve nodes reach rounding (7.9^-24).
+const NEARLY_PROPORTIONAL: f64 = 0.25;
+
+/// A rational PH arc of class `N - 1`: unit normal `w^2/|w|^2` with `w = (1-t) w0 + t w1`, and
+/// support `p = g/|w|^2` with a real Bernstein polynomial `g` of degree `N - 1`.
+///
+/// The plane is read as complex numbers. Every quantity of the curve is rational in `t`:
+///
+/// | quantity | formula, with `q = abs(w)^2`, `kappa = det(w0, w1)` |
+/// |---|---|
+/// | tangent line | `(-g, Re w^2, Im w^2)` |
+/// | point | `i (g' w - 2 g w') / (2 kappa conj(w))` |
+/// | radius of curvature | `(q g'' - q' g' + q'' g) / (4 kappa^2)`, a polynomial |
+/// | offset by d | `g + d q` |
+///
+/// The normal is the right-hand one of the tangent `i N`; it turns by `2h`, `h = arg(w1/w0)` in
+/// (-pi/2, pi/2). Where the turning and the radius have the same sign the curve travels along
+/// `i N`, otherwise against it. `(w0, w1)` and `(-w0, -w1)` are the same arc.
+///
+/// The arc is a *front*, not only a curve: `g` is meaningful where the radius vanishes (cusps), and
+/// the arc whose radius is zero everywhere is a point with a fan of normals.
+///
+/// Source: Pottmann's dual form `U = (-e(a^2+b^2), 2abf, (a^2-b^2)f)` with f = 1, `w = e^{i pi/4}(a - ib)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhArc<const N: usize> {
+    w0: DVec2,
+    w1: DVec2,
+    g: [f64; N],
+}
+
+/// A rational PH arc of class 3, Tschirnhausen's quartic: strictly monotone curvature, offsets of the
+/// same kind, the involute of a Tschirnhausen cubic.
+pub type TQuartic = PhArc<4>;
+
+/// One point of an arc or dual curve with its line of contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Contact {
+    /// The point of the curve.
+    pub point: DVec2,
+    /// Unit normal; the tangent is this turned by +90 degrees.
+    pub normal: DVec2,
+    /// Distance of the tangent line from the origin, along the normal.
+    pub support: f64,
+    /// Signed radius of curvature `p + p''`: the centre of curvature is `point - radius * normal`.
+    pub radius: f64,
+}
+
+impl Contact {
+    /// Centre of curvature, a point of the evolute.
+    #[must_use]
+    pub fn centre(&self) -> DVec2 {
+        self.point - self.radius * self.normal
+    }
+}
+
+impl<const N: usize> PhArc<N> {
+    /// The class, `N - 1`.
+    pub const CLASS: usize = N.saturating_sub(1);
+
+    /// The arc with spinors `w0`, `w1` and support coefficients `g`.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`]; [`Error::Pencil`] below class 2; [`Error::ZeroDirection`] if a spinor is
+    /// zero; [`Error::NoTurning`] if they are parallel; [`Error::TurningTooLarge`] if the angle
+    /// between them is a right angle or more (the normal then turns by pi or more).
+    pub fn new(w0: DVec2, w1: DVec2, g: [f64; N]) -> Result<Self, Error> {
+        if !(w0.is_finite() && w1.is_finite() && g.iter().all(|c| c.is_finite())) {
+            return Err(Error::NonFinite { what: "a coefficient of an arc" });
+        }
+        if N < 3 {
+            return Err(Error::Pencil { class: Self::CLASS });
+        }
+        if w0 == DVec2::ZERO || w1 == DVec2::ZERO {
+            return Err(Error::ZeroDirection { what: "an end spinor of an arc" });
+        }
+        let turning = 2.0 * w0.perp_dot(w1).atan2(w0.dot(w1));
+        if w0.dot(w1) <= 0.0 {
+            return Err(Error::TurningTooLarge { turning });
+        }
+        if w0.perp_dot(w1) == 0.0 {
+            return Err(Error::NoTurning { turning });
+        }
+        Ok(Self { w0, w1, g })
+    }
+
+    /// The arc without the checks of [`PhArc::new`], for values known to satisfy them.
+    pub(crate) const fn from_parts(w0: DVec2, w1: DVec2, g: [f64; N]) -> Self {
+        Self { w0, w1, g }
+    }
+
+    /// The spinors `(w0, w1)`.
+    #[must_use]
+    pub const fn spinors(&self) -> (DVec2, DVec2) {
+        (self.w0, self.w1)
+    }
+
+    /// Bernstein coefficients of the support numerator `g`.
+    #[must_use]
+    pub const fn coefficients(&self) -> &[f64; N] {
+        &self.g
+    }
+
+    /// `|w0| / |w1|`, the shape parameter of the parametrisation.
+    #[must_use]
+    pub fn alpha(&self) -> f64 {
+        self.w0.length() / self.w1.length()
+    }
+
+    /// Signed turning angle `2h` of the normal from start to end, in (-pi, pi).
+    #[must_use]
+    pub fn turning(&self) -> f64 {
+        2.0 * self.kappa().atan2(self.w0.dot(self.w1))
+    }
+
+    /// `det(w0, w1)`: its sign is the sense of turning.
+    fn kappa(&self) -> f64 {
+        self.w0.perp_dot(self.w1)
+    }
+
+    /// Bernstein coefficients of `q = |w|^2`, the length of the polynomial normal.
+    fn normal_length(&self) -> [f64; 3] {
+        [self.w0.length_squared(), self.w0.dot(self.w1), self.w1.length_squared()]
+    }
+
+    /// Bernstein coefficients of the polynomial normal `w^2`.
+    fn normal_polynomial(&self) -> [DVec2; 3] {
+        [square(self.w0), self.w0.rotate(self.w1), square(self.w1)]
+    }
+
+    fn spinor(&self, t: f64) -> DVec2 {
+        self.w0 * (1.0 - t) + self.w1 * t
+    }
+
+    /// `g`, `g'` and `g''` at `t`.
+    fn support_jet(&self, t: f64) -> [f64; 3] {
+        let mut row = self.g;
+        for level in 1..N.saturating_sub(2) {
+            for k in 0..N - level {
+                row[k] += t * (row[k + 1] - row[k]);
+            }
+        }
+        let m = Self::CLASS as f64;
+        let (d0, d1) = (row[1] - row[0], row[2] - row[1]);
+        let (a, b) = (row[0] + t * d0, row[1] + t * d1);
+        [a + t * (b - a), m * (b - a), m * (m - 1.0) * (d1 - d0)]
+    }
+
+    /// Unit normal at `t`.
+    #[must_use]
+    pub fn normal(&self, t: f64) -> DVec2 {
+        let w = self.spinor(t);
+        square(w) / w.length_squared()
+    }
+
+    /// Support `p`: distance of the tangent line from the origin along the normal.
+    #[must_use]
+    pub fn support(&self, t: f64) -> f64 {
+        self.support_jet(t)[0] / self.spinor(t).length_squared()
+    }
+
+    /// Point of contact of the tangent line at `t`.
+    #[must_use]
+    pub fn point(&self, t: f64) -> DVec2 {
+        let w = self.spinor(t);
+        let [g, dg, _] = self.support_jet(t);
+        let numerator = dg * w - 2.0 * g * (self.w1 - self.w0);
+        // i z / conj(w) = i z w / |w|^2
+        w.rotate(numerator).perp() / (2.0 * self.kappa() * w.length_squared())
+    }
+
+    /// Signed radius of curvature at `t`.
+    #[must_use]
+    pub fn radius(&self, t: f64) -> f64 {
+        let w = self.spinor(t);
+        let dw = self.w1 - self.w0;
+        let [g, dg, ddg] = self.support_jet(t);
+        let (q, dq, ddq) = (w.length_squared(), 2.0 * w.dot(dw), 2.0 * dw.length_squared());
+        (q * ddg - dq * dg + ddq * g) / (4.0 * self.kappa() * self.kappa())
+    }
+
+    /// Point, normal, support and radius at `t`.
+    #[must_use]
+    pub fn contact(&self, t: f64) -> Contact {
+        Contact {
+            point: self.point(t),
+            normal: self.normal(t),
+            support: self.support(t),
+            radius: self.radius(t),
+        }
+    }
+
+    /// Bernstein coefficients of the radius of curvature, a polynomial of degree `N - 1`.
+    ///
+    /// All of one sign certify that the arc is regular and convex.
+    #[must_use]
+    pub fn radius_polynomial(&self) -> [f64; N] {
+        let [q0, q1, q2] = self.normal_length();
+        let (dq0, dq1, ddq) = (q1 - q0, q2 - q1, q0 - 2.0 * q1 + q2);
+        let m = Self::CLASS;
+        let g = &self.g;
+        // Bernstein products of q with g'', q' with g' and q'' with g; the binomial ratios of the
+        // products cancel the factors m and m - 1 of the derivatives.
+        let second = |k: usize| g[k] - 2.0 * g[k + 1] + g[k + 2];
+        let scale = 1.0 / (4.0 * self.kappa() * self.kappa());
+        std::array::from_fn(|k| {
+            let (a, b) = ((m - k) as f64, k as f64);
+            let mut sum = 2.0 * ddq * g[k];
+            if k + 2 <= m {
+                sum += a * (a - 1.0) * q0 * second(k);
+            }
+            if k >= 1 && k < m {
+                sum += 2.0 * a * b * q1 * second(k - 1);
+            }
+            if k >= 2 {
+                sum += b * (b - 1.0) * q2 * second(k - 2);
+            }
+            if k < m {
+                sum -= 2.0 * a * dq0 * (g[k + 1] - g[k]);
+            }
+            if k >= 1 {
+                sum -= 2.0 * b * dq1 * (g[k] - g[k - 1]);
+            }
+            sum * scale
+        })
+    }
+
+    /// Signed radii at the two ends.
+    #[must_use]
+    pub fn end_radii(&self) -> [f64; 2] {
+        [self.radius(0.0), self.radius(1.0)]
+    }
+
+    /// The parameter at which the unit normal is `normal`, in `[0, 1]`, or none if that normal does
+    /// not occur on the arc.
+    #[must_use]
+    pub fn parameter_of_normal(&self, normal: DVec2) -> Option<f64> {
+        let t = self.parameter_beyond(normal);
+        (0.0..=1.0).contains(&t).then_some(t)
+    }
+
+    /// The parameter of a normal that lies within a half turn of the start normal, also outside `[0, 1]`.
+    pub(crate) fn parameter_beyond(&self, normal: DVec2) -> f64 {
+        // The spinor of the normal bisects it and the real axis; in the frame of the start normal it
+        // is never close to zero.
+        let start = square(self.w0) / self.w0.length_squared();
+        let spinor = self.w0.rotate(DVec2::X + conj(start).rotate(normal));
+        let (past_start, before_end) = (self.w0.perp_dot(spinor), spinor.perp_dot(self.w1));
+        past_start / (past_start + before_end)
+    }
+
+    /// The parallel arc at signed distance `distance` along the normal; exact.
+    #[must_use]
+    pub fn offset(&self, distance: f64) -> Self {
+        let circle = self.circle_coefficients();
+        let mut g = self.g;
+        for (g, c) in g.iter_mut().zip(circle) {
+            *g += distance * c;
+        }
+        Self { g, ..*self }
+    }
+
+    /// Coefficients of the concentric unit circle with the same normals: `q` raised to degree `N - 1`.
+    #[must_use]
+    pub fn circle_coefficients(&self) -> [f64; N] {
+        let [q0, q1, q2] = self.normal_length();
+        Self::raise_quadratic(|a, b, c| a * q0 + b * q1 + c * q2)
+    }
+
+    /// Degree elevation of a quadratic; `sum` adds its three coefficients with the given weights.
+    fn raise_quadratic<T>(sum: impl Fn(f64, f64, f64) -> T) -> [T; N] {
+        let m = Self::CLASS as f64;
+        let total = m * (m - 1.0);
+        std::array::from_fn(|k| {
+            let (a, b) = (m - k as f64, k as f64);
+            sum(a * (a - 1.0) / total, 2.0 * a * b / total, b * (b - 1.0) / total)
+        })
+    }
+
+    /// Bernstein coefficients of the polynomial normal `w^2`, raised to degree `N - 1`: the normals of
+    /// the Bézier lines.
+    #[must_use]
+    pub fn control_normals(&self) -> [DVec2; N] {
+        let [n0, n1, n2] = self.normal_polynomial();
+        Self::raise_quadratic(|a, b, c| a * n0 + b * n1 + c * n2)
+    }
+
+    /// The Bézier lines `(-g_i, n_i)` of the dual form. They lie on finite or infinite lines; a zero
+    /// vector cannot occur at the ends.
+    #[must_use]
+    pub fn control_vectors(&self) -> [DVec3; N] {
+        let normals = self.control_normals();
+        std::array::from_fn(|k| DVec3::new(-self.g[k], normals[k].x, normals[k].y))
+    }
+
+    /// The arc moved by `vector`.
+    #[must_use]
+    pub fn translate(&self, vector: DVec2) -> Self {
+        let normals = self.control_normals();
+        Self { g: std::array::from_fn(|k| self.g[k] + normals[k].dot(vector)), ..*self }
+    }
+
+    /// The arc turned about the origin by the argument of the unit complex number `turn`.
+    #[must_use]
+    pub fn rotate(&self, turn: DVec2) -> Self {
+        let half = sqrt(turn);
+        Self { w0: half.rotate(self.w0), w1: half.rotate(self.w1), g: self.g }
+    }
+
+    /// The arc scaled about the origin by `factor` (a negative factor keeps the normals and turns the
+    /// arc inside out).
+    #[must_use]
+    pub fn scale(&self, factor: f64) -> Self {
+        Self { g: self.g.map(|c| c * factor), ..*self }
+    }
+
+    /// The mirror image in a finite line: `w -> i nu conj(w)`, `g -> g - 2ck`. The turning changes sign.
+    ///
+    /// # Errors
+    /// [`Error::ZeroDirection`] if the mirror is the line at infinity.
+    pub fn reflect(&self, mirror: Line) -> Result<Self, Error> {
+        let c = mirror.support()?;
+        let nu = mirror.normal().normalize();
+        let normals = self.control_normals();
+        // The factor i nu conj(w) squares to -nu^2 conj(w^2) = n - 2<n, nu> nu.
+        let image = |w: DVec2| nu.perp().rotate(conj(w));
+        Ok(Self {
+            w0: image(self.w0),
+            w1: image(self.w1),
+            g: std::array::from_fn(|k| self.g[k] - 2.0 * c * normals[k].dot(nu)),
+        })
+    }
+
+    /// The same arc run backwards; the normals keep their directions.
+    #[must_use]
+    pub fn reverse(&self) -> Self {
+        let mut g = self.g;
+        g.reverse();
+        Self { w0: self.w1, w1: self.w0, g }
+    }
+
+    /// The same points with opposite normals: supports and radii change sign.
+    #[must_use]
+    pub fn flip(&self) -> Self {
+        Self { w0: self.w0.perp(), w1: self.w1.perp(), g: self.g.map(|c| -c) }
+    }
+
+    /// The two parts at `t`, by de Casteljau's construction on `w` and `g`; both keep the scale.
+    ///
+    /// # Errors
+    /// [`Error::OutsideDomain`] unless `0 < t < 1`.
+    pub fn split(&self, t: f64) -> Result<(Self, Self), Error> {
+        if !(t > 0.0 && t < 1.0) {
+            return Err(Error::OutsideDomain { value: t, start: 0.0, end: 1.0 });
+        }
+        Ok(self.split_inside(t))
+    }
+
+    pub(crate) fn split_inside(&self, t: f64) -> (Self, Self) {
+        let mut right = self.g;
+        let mut left = self.g;
+        for level in 1..N {
+            for k in 0..N - level {
+                right[k] += t * (right[k + 1] - right[k]);
+            }
+            left[level] = right[0];
+        }
+        let w = self.spinor(t);
+        (Self { w0: self.w0, w1: w, g: left }, Self { w0: w, w1: self.w1, g: right })
+    }
+
+    /// The part between two parameters `0 <= start < end <= 1`.
+    ///
+    /// # Errors
+    /// [`Error::OutsideDomain`] otherwise.
+    pub fn part(&self, start: f64, end: f64) -> Result<Self, Error> {
+        if !(start >= 0.0 && start < end) {
+            return Err(Error::OutsideDomain { value: start, start: 0.0, end });
+        }
+        if !(end <= 1.0) {
+            return Err(Error::OutsideDomain { value: end, start, end: 1.0 });
+        }
+        let tail = if start > 0.0 { self.split_inside(start).1 } else { *self };
+        let end = (end - start) / (1.0 - start);
+        Ok(if end < 1.0 { tail.split_inside(end).0 } else { tail })
+    }
+
+    /// `int R d psi`, the length with the sign of radius times turning: parts beyond a cusp count
+    /// negatively. In closed form, exact to rounding.
+    #[must_use]
+    pub fn signed_length(&self) -> f64 {
+        let dw = self.w1 - self.w0;
+        let slack = dw.length_squared() / self.w0.length_squared().min(self.w1.length_squared());
+        if slack <= NEARLY_PROPORTIONAL { self.length_by_gauss() } else { self.length_by_division() }
+    }
+
+    /// `2 kappa int R/q dt` by one Gauss rule.
+    fn length_by_gauss(&self) -> f64 {
+        let radius = self.radius_polynomial();
+        let sum: f64 = GAUSS_12
+            .iter()
+            .flat_map(|&(x, weight)| [(0.5 - 0.5 * x, weight), (0.5 + 0.5 * x, weight)])
+            .map(|(t, weight)| weight * bernstein_value(&radius, t) / self.spinor(t).length_squared())
+            .sum();
+        self.kappa() * sum
+    }
+
+    /// The same from `R = A q + (b t + c)`: a polynomial, a logarithm and the angle h.
+    fn length_by_division(&self) -> f64 {
+        let mut remainder = power_coefficients(&self.radius_polynomial());
+        let dw = self.w1 - self.w0;
+        let (q0, q1, q2) = (self.w0.length_squared(), 2.0 * self.w0.dot(dw), dw.length_squared());
+        let mut quotient_integral = 0.0;
+        for k in (2..N).rev() {
+            let a = remainder[k] / q2;
+            remainder[k - 1] -= a * q1;
+            remainder[k - 2] -= a * q0;
+            quotient_integral += a / (k - 1) as f64;
+        }
+        let (c, b) = (remainder[0], remainder[1]);
+        let logarithm = (self.w1.length_squared() / self.w0.length_squared()).ln();
+        let kappa = self.kappa();
+        let half_turning = 0.5 * self.turning();
+        2.0 * kappa * (quotient_integral + b / (2.0 * q2) * logarithm)
+            + 2.0 * (c - b * q1 / (2.0 * q2)) * half_turning
+    }
+
+    /// Arc length from the start to parameter `t`, signed as [`PhArc::signed_length`].
+    ///
+    /// # Errors
+    /// [`Error::OutsideDomain`] unless `0 <= t <= 1`.
+    pub fn signed_length_to(&self, t: f64) -> Result<f64, Error> {
+        if t == 0.0 { Ok(0.0) } else { Ok(self.part(0.0, t)?.signed_length()) }
+    }
+}
+
+/// Value of a Bernstein polynomial by de Casteljau's scheme.
+fn bernstein_value<const N: usize>(coefficients: &[f64; N], t: f64) -> f64 {
+    let mut row = *coefficients;
+    for level in 1..N {
+        for k in 0..N - level {
+            row[k] += t * (row[k + 1] - row[k]);
+        }
+    }
+    row[0]
+}
+
+/// Coefficients of the powers of t: binomials times forward differences.
+fn power_coefficients<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {
+    let mut row = *coefficients;
+    let mut binomial = 1.0;
+    for level in 1..N {
+        for k in (level..N).rev() {
+            row[k] -= row[k - 1];
+        }
+    }
+    for (k, c) in row.iter_mut().enumerate() {
+        *c *= binomial;
+        binomial *= (N - 1 - k) as f64 / (k + 1) as f64;
+    }
+    row
+}
+
+/// Positive nodes and weights of the twelve-point Gauss-Legendre rule on [-1, 1].
+const GAUSS_12: [(f64, f64); 6] = [
+    (0.125_233_408_511_468_92, 0.249_147_045_813_402_8),
+    (0.367_831_498_998_180_2, 0.233_492_536_538_354_8),
+    (0.587_317_954_286_617_4, 0.203_167_426_723_065_92),
+    (0.769_902_674_194_304_7, 0.160_078_328_543_346_23),
+    (0.904_117_256_370_474_9, 0.106_939_325_995_318_43),
+    (0.981_560_634_246_719_3, 0.047_175_336_386_511_83),
+];
+
+/// The direction of `a / b`, used for the angle between two spinors or normals.
+pub(crate) fn quotient_direction(a: DVec2, b: DVec2) -> DVec2 {
+    divide(a, b).normalize_or_zero()
+}
