@@ -29,9 +29,13 @@ impl LineElement {
     /// [`Error::NonFinite`], or [`Error::ZeroDirection`] for a zero normal.
     pub fn new(point: DVec2, normal: DVec2) -> Result<Self, Error> {
         if !(point.is_finite() && normal.is_finite()) {
-            return Err(Error::NonFinite { what: "a line element" });
+            return Err(Error::NonFinite {
+                what: "a line element",
+            });
         }
-        let normal = normal.try_normalize().ok_or(Error::ZeroDirection { what: "a normal" })?;
+        let normal = normal
+            .try_normalize()
+            .ok_or(Error::ZeroDirection { what: "a normal" })?;
         Ok(Self { point, normal })
     }
 
@@ -93,18 +97,30 @@ impl G1Ends {
             return Err(if turn.x > 0.0 {
                 Error::NoTurning { turning: 0.0 }
             } else {
-                Error::TurningTooLarge { turning: std::f64::consts::PI }
+                Error::TurningTooLarge {
+                    turning: std::f64::consts::PI,
+                }
             });
         }
         let half = sqrt(turn).normalize();
         let z0 = sqrt(start.normal);
         let chord = end.point - start.point;
         // chord = leg0 T0 + leg1 T1 with the tangents T = i N, and <T0, N1> = sin 2h = -<T1, N0>.
-        let legs = (chord.dot(end.normal) / turn.y, -chord.dot(start.normal) / turn.y);
+        let legs = (
+            chord.dot(end.normal) / turn.y,
+            -chord.dot(start.normal) / turn.y,
+        );
         if !(legs.0.is_finite() && legs.1.is_finite()) {
             return Err(Error::NoTurning { turning: turn.y });
         }
-        Ok(Self { start, end, spinors: (z0, z0.rotate(half)), cos_h: half.x, sin_h: half.y, legs })
+        Ok(Self {
+            start,
+            end,
+            spinors: (z0, z0.rotate(half)),
+            cos_h: half.x,
+            sin_h: half.y,
+            legs,
+        })
     }
 
     /// Signed legs `(l0, l1)` of the tangent triangle: `P1 - P0 = l0 T0 + l1 T1`, `T = i N`.
@@ -135,7 +151,11 @@ impl G1Ends {
         let (w0, w1) = (self.spinors.0 * root, self.spinors.1 / root);
         let (p0, p1) = (self.start.point, self.end.point);
         let n = TQuartic::from_parts(w0, w1, [0.0; 4]).control_normals();
-        TQuartic::from_parts(w0, w1, [n[0].dot(p0), n[1].dot(p0), n[2].dot(p1), n[3].dot(p1)])
+        TQuartic::from_parts(
+            w0,
+            w1,
+            [n[0].dot(p0), n[1].dot(p0), n[2].dot(p1), n[3].dot(p1)],
+        )
     }
 
     /// Signed radii at both ends of the arc with shape `alpha`.
@@ -193,7 +213,8 @@ impl G1Ends {
         for (normal, support) in samples {
             let t = circle.parameter_beyond(normal);
             let u = 1.0 - t;
-            let target = (support - normal.dot(self.start.point)) * (z0 * u + z1 * t).length_squared();
+            let target =
+                (support - normal.dot(self.start.point)) * (z0 * u + z1 * t).length_squared();
             // p = (G0 + alpha G1) / ((u + alpha t) q)
             let g0 = end * t * t * u;
             let g1 = (middle * u + end * t) * t * t;
@@ -202,7 +223,11 @@ impl G1Ends {
             denominator += influence * influence;
             count += 1.0;
         }
-        if denominator > count * negligible * negligible { numerator / denominator } else { 1.0 }
+        if denominator > count * negligible * negligible {
+            numerator / denominator
+        } else {
+            1.0
+        }
     }
 
     /// `alpha` moved into the interval of [`G1Ends::regular_alphas`], a little inside of it.
@@ -211,9 +236,20 @@ impl G1Ends {
     /// As [`G1Ends::regular_alphas`].
     pub fn clamp_alpha(&self, alpha: f64) -> Result<f64, Error> {
         let (low, high) = self.regular_alphas()?;
-        let least = low * (1.0 + REGULAR_MARGIN) + if low > 0.0 { 0.0 } else { high.min(1.0) * LEAST_ALPHA };
-        let most = if high.is_finite() { high * (1.0 - REGULAR_MARGIN) } else { low.max(1.0) / LEAST_ALPHA };
-        Ok(if alpha.is_nan() { 1.0_f64 } else { alpha }.max(least).min(most))
+        let least = low * (1.0 + REGULAR_MARGIN)
+            + if low > 0.0 {
+                0.0
+            } else {
+                high.min(1.0) * LEAST_ALPHA
+            };
+        let most = if high.is_finite() {
+            high * (1.0 - REGULAR_MARGIN)
+        } else {
+            low.max(1.0) / LEAST_ALPHA
+        };
+        Ok(if alpha.is_nan() { 1.0_f64 } else { alpha }
+            .max(least)
+            .min(most))
     }
 
     /// The single `alpha` whose arc has the given signed radii at both ends, if there is one: the
@@ -247,20 +283,30 @@ impl TQuartic {
     pub fn cusp(&self) -> Option<f64> {
         let radius = self.radius_polynomial();
         let (r0, r1) = (radius[0], radius[3]);
-        if r0 == 0.0 || r1 == 0.0 {
-            return (r0 != r1).then_some(if r0 == 0.0 { 0.0 } else { 1.0 });
-        }
-        if (r0 > 0.0) == (r1 > 0.0) {
+        if (r0 > 0.0) == (r1 > 0.0) && r0 != 0.0 && r1 != 0.0
+            || r0.abs().max(r1.abs()) <= self.radius_noise()
+        {
             return None;
+        }
+        if r0 == 0.0 || r1 == 0.0 {
+            return Some(if r0 == 0.0 { 0.0 } else { 1.0 });
         }
         let (mut low, mut high) = (0.0, 1.0);
         let mut t = r0 / (r0 - r1);
         // Newton on a monotone function, kept inside the bracket.
         for _ in 0..64 {
             let value = bernstein::evaluate(&radius, t);
-            if (value > 0.0) == (r0 > 0.0) { low = t } else { high = t }
+            if (value > 0.0) == (r0 > 0.0) {
+                low = t
+            } else {
+                high = t
+            }
             let newton = t - value / self.radius_slope(t);
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            let next = if newton > low && newton < high {
+                newton
+            } else {
+                0.5 * (low + high)
+            };
             let step = (next - t).abs();
             t = next;
             if value == 0.0 || step <= f64::EPSILON {
@@ -268,6 +314,18 @@ impl TQuartic {
             }
         }
         Some(t)
+    }
+
+    /// Rounding error of a coefficient of the radius polynomial: some ulps of its largest term.
+    fn radius_noise(&self) -> f64 {
+        let (w0, w1) = self.spinors();
+        let largest = self
+            .coefficients()
+            .iter()
+            .fold(0.0_f64, |most, g| most.max(g.abs()));
+        let kappa = w0.perp_dot(w1);
+        16.0 * f64::EPSILON * largest * w0.length_squared().max(w1.length_squared())
+            / (kappa * kappa)
     }
 
     /// `dR/dt = q g''' / (4 kappa^2)`, of constant sign.
@@ -314,7 +372,10 @@ impl TQuartic {
     /// # Errors
     /// As [`LineElement::new`] and [`G1Ends::new`].
     pub fn point_fan(point: DVec2, start: DVec2, end: DVec2) -> Result<Self, Error> {
-        let ends = G1Ends::new(LineElement::new(point, start)?, LineElement::new(point, end)?)?;
+        let ends = G1Ends::new(
+            LineElement::new(point, start)?,
+            LineElement::new(point, end)?,
+        )?;
         Ok(ends.arc_of_positive(1.0))
     }
 
@@ -333,5 +394,137 @@ impl TQuartic {
             0.5 * meet(1, 3),
             meet(2, 3),
         ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ends() -> G1Ends {
+        let start = LineElement::new(DVec2::new(1.0, 0.0), DVec2::from_angle(0.1)).unwrap();
+        let end = LineElement::new(DVec2::new(0.55, 1.1), DVec2::from_angle(1.35)).unwrap();
+        G1Ends::new(start, end).unwrap()
+    }
+
+    #[test]
+    fn the_radii_change_sign_at_the_ends_of_the_regular_interval() {
+        let (low, high) = ends().regular_alphas().unwrap();
+        assert!(high.is_infinite());
+        assert!(ends().end_radii(low * 1.0001)[1] > 0.0 && ends().end_radii(low * 0.9999)[1] < 0.0);
+        let inside = ends().clamp_alpha(0.01).unwrap();
+        assert!(
+            ends()
+                .arc(inside)
+                .unwrap()
+                .end_radii()
+                .iter()
+                .all(|r| *r > 0.0)
+        );
+    }
+
+    #[test]
+    fn a_fit_to_an_arc_finds_its_shape() {
+        let arc = ends().arc(2.7).unwrap();
+        let samples = [0.2, 0.45, 0.7].map(|t| (arc.normal(t), arc.support(t)));
+        assert!((ends().fit_alpha(samples) - 2.7).abs() < 1e-11);
+        assert!((ends().alpha_for_start_radius(arc.end_radii()[0]).unwrap() - 2.7).abs() < 1e-11);
+        assert!((ends().t_connected(arc.end_radii(), 1e-9).unwrap() - 2.7).abs() < 1e-11);
+        assert_eq!(
+            ends().t_connected([arc.end_radii()[0], 1.01 * arc.end_radii()[1]], 1e-9),
+            None
+        );
+    }
+
+    #[test]
+    fn a_cusp_splits_the_length() {
+        let arc = ends().arc(0.8).unwrap();
+        let t = arc.cusp().unwrap();
+        assert!(arc.radius(t).abs() < 1e-14);
+        assert!((arc.length() - 1.404_320_983_582_101_1).abs() < 1e-12);
+        assert!(arc.signed_length() < arc.length() - 1e-3);
+    }
+
+    #[test]
+    fn the_evolute_is_a_t_cubic_whose_involute_is_the_arc() {
+        let arc = ends().arc(2.7).unwrap();
+        let evolute = TCubic::new(*arc.evolute().points()).unwrap();
+        let [r0, r1] = arc.end_radii();
+        assert!((evolute.length() - (r0 - r1).abs()).abs() < 1e-12);
+        for t in [0.0, 0.3, 1.0] {
+            assert!((evolute.point(t) - arc.contact(t).centre()).length() < 1e-12);
+        }
+        // The normal of the involute points along the travel of the evolute: here the radius decreases.
+        let involute = evolute.involute(r0).unwrap();
+        for t in [0.0, 0.3, 1.0] {
+            assert!((involute.point(t) - arc.point(t)).length() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_quartic_is_the_point_form() {
+        for arc in [ends().arc(2.7).unwrap(), ends().arc(2.7).unwrap().reverse()] {
+            let quartic = arc.quartic();
+            for (x, y) in quartic.iter().zip(arc.point_control()) {
+                assert!(x.x > 0.0);
+                // The general form carries the factor m = 3 and the sign of the turning.
+                assert!(
+                    (x.y / x.x - y.y / y.x).abs() < 1e-13 && (x.z / x.x - y.z / y.x).abs() < 1e-13
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn equal_legs_give_the_circle_whatever_the_shape() {
+        let end = DVec2::from_angle(0.9);
+        let start = LineElement::new(DVec2::X, DVec2::X).unwrap();
+        let circle = G1Ends::new(start, LineElement::new(end, end).unwrap()).unwrap();
+        for alpha in [0.1, 1.0, 7.0] {
+            let arc = circle.arc(alpha).unwrap();
+            assert!(
+                (arc.point(0.4).length() - 1.0).abs() < 1e-14
+                    && (arc.radius(0.4) - 1.0).abs() < 1e-13
+            );
+        }
+    }
+
+    #[test]
+    fn a_fan_is_a_point_whose_offset_is_a_circular_arc() {
+        let corner = DVec2::new(3.0, -2.0);
+        let fan = TQuartic::point_fan(corner, DVec2::X, DVec2::from_angle(1.5)).unwrap();
+        for t in [0.0, 0.5, 1.0] {
+            assert!((fan.point(t) - corner).length() < 1e-14);
+            assert!(((fan.offset(0.5).point(t) - corner).length() - 0.5).abs() < 1e-14);
+        }
+        assert_eq!(fan.cusp(), None);
+    }
+
+    #[test]
+    fn elements_without_an_arc_are_refused() {
+        let at = |angle: f64| LineElement::new(DVec2::ZERO, DVec2::from_angle(angle)).unwrap();
+        assert!(matches!(
+            G1Ends::new(at(0.0), at(0.0)),
+            Err(Error::NoTurning { .. })
+        ));
+        let opposite = LineElement::new(DVec2::ZERO, -DVec2::X).unwrap();
+        assert!(matches!(
+            G1Ends::new(at(0.0), opposite),
+            Err(Error::TurningTooLarge { .. })
+        ));
+        assert!(matches!(
+            ends().arc(0.0),
+            Err(Error::NonPositiveAlpha { .. })
+        ));
+        assert!(matches!(
+            ends().arc(f64::NAN),
+            Err(Error::NonPositiveAlpha { .. })
+        ));
+        assert!(LineElement::new(DVec2::ZERO, DVec2::ZERO).is_err());
+        let zigzag = LineElement::new(DVec2::new(-1.0, 1.0), DVec2::from_angle(0.3)).unwrap();
+        assert!(matches!(
+            G1Ends::new(at(0.0), zigzag).unwrap().regular_alphas(),
+            Err(Error::NoRegularArc { .. })
+        ));
     }
 }

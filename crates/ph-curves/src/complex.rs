@@ -41,7 +41,14 @@ mod tests {
 
     #[test]
     fn the_principal_root_squares_back() {
-        for z in [(3.0, 4.0), (-3.0, 4.0), (-3.0, -4.0), (0.0, -2.0), (-1.0, 0.0), (1e-200, 1e-200)] {
+        for z in [
+            (3.0, 4.0),
+            (-3.0, 4.0),
+            (-3.0, -4.0),
+            (0.0, -2.0),
+            (-1.0, 0.0),
+            (1e-200, 1e-200),
+        ] {
             let z = DVec2::new(z.0, z.1);
             let root = sqrt(z);
             assert!(root.x >= 0.0);

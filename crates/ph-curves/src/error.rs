@@ -39,13 +39,17 @@ pub enum Error {
         index: usize,
     },
     /// The point at this parameter is not finite.
-    #[error("the point at parameter {t} is not finite: its tangent is the line at infinity, or stationary")]
+    #[error(
+        "the point at parameter {t} is not finite: its tangent is the line at infinity, or stationary"
+    )]
     AtInfinity {
         /// Parameter of the point.
         t: f64,
     },
     /// The two normals coincide, so there is no arc of tangents between them.
-    #[error("the normals turn by {turning} rad: no turning, hence no dual arc (keep a straight segment)")]
+    #[error(
+        "the normals turn by {turning} rad: no turning, hence no dual arc (keep a straight segment)"
+    )]
     NoTurning {
         /// Turning angle in radians.
         turning: f64,
@@ -63,7 +67,9 @@ pub enum Error {
         alpha: f64,
     },
     /// The denominator f vanishes between the two parameters, so the curve runs to infinity.
-    #[error("the denominator f is {f0} and {f1} at the ends of the interval: the curve passes through infinity between them")]
+    #[error(
+        "the denominator f is {f0} and {f1} at the ends of the interval: the curve passes through infinity between them"
+    )]
     Pole {
         /// Value of f at the start.
         f0: f64,
@@ -77,7 +83,9 @@ pub enum Error {
         area: f64,
     },
     /// The four control points do not satisfy Theorem 1.
-    #[error("the cubic is not a Tschirnhausen cubic: D1^2 and D0 D2 differ by {relative_defect} of their size")]
+    #[error(
+        "the cubic is not a Tschirnhausen cubic: D1^2 and D0 D2 differ by {relative_defect} of their size"
+    )]
     NotTschirnhausen {
         /// `|D1^2 - D0 D2|` over the larger of the two moduli.
         relative_defect: f64,
@@ -89,7 +97,9 @@ pub enum Error {
         what: &'static str,
     },
     /// The curvature at an end is zero or infinite; a class-3 arc has neither.
-    #[error("the end radii are {r0} and {r1}: a class-3 arc has no inflection and no infinite curvature at its ends")]
+    #[error(
+        "the end radii are {r0} and {r1}: a class-3 arc has no inflection and no infinite curvature at its ends"
+    )]
     NoCurvatureElement {
         /// Signed radius of curvature at the start.
         r0: f64,
@@ -97,13 +107,17 @@ pub enum Error {
         r1: f64,
     },
     /// Equal radii are met by a circular arc only, and these elements are not on one circle.
-    #[error("both radii are {radius}: only a circular arc has monotone curvature between them, and the elements are not on one circle")]
+    #[error(
+        "both radii are {radius}: only a circular arc has monotone curvature between them, and the elements are not on one circle"
+    )]
     EqualRadii {
         /// The common signed radius.
         radius: f64,
     },
     /// No convex arc of monotone curvature joins the two curvature elements.
-    #[error("not admissible: |Q0 Q1| = {centre_distance}, |R0 - R1| = {evolute_length}, legs {lambda0} and {lambda1}; needed: positive legs and |Q0 Q1| < |R0 - R1| < sum of legs")]
+    #[error(
+        "not admissible: |Q0 Q1| = {centre_distance}, |R0 - R1| = {evolute_length}, legs {lambda0} and {lambda1}; needed: positive legs and |Q0 Q1| < |R0 - R1| < sum of legs"
+    )]
     NotAdmissible {
         /// Distance of the two centres of curvature.
         centre_distance: f64,
@@ -135,7 +149,9 @@ pub enum Error {
         tolerance: f64,
     },
     /// The tolerance is below what double precision resolves at this size.
-    #[error("the tolerance {tolerance} is below the resolution {resolution} of coordinates of this size")]
+    #[error(
+        "the tolerance {tolerance} is below the resolution {resolution} of coordinates of this size"
+    )]
     ToleranceTooSmall {
         /// The value that was given.
         tolerance: f64,
@@ -166,7 +182,9 @@ pub enum Error {
         end: f64,
     },
     /// A subdivision reached its limit before the tolerance was met.
-    #[error("the piece [{start}, {end}] still misses the tolerance by a factor {excess} after {depth} halvings")]
+    #[error(
+        "the piece [{start}, {end}] still misses the tolerance by a factor {excess} after {depth} halvings"
+    )]
     NotConverged {
         /// Start of the piece in the curve's parameter.
         start: f64,

@@ -37,7 +37,9 @@ impl Line {
     /// [`Error::NonFinite`], or [`Error::ZeroDirection`] for a zero normal.
     pub fn through(point: DVec2, normal: DVec2) -> Result<Self, Error> {
         if normal == DVec2::ZERO {
-            return Err(Error::ZeroDirection { what: "the normal of a line" });
+            return Err(Error::ZeroDirection {
+                what: "the normal of a line",
+            });
         }
         Self::new(-normal.dot(point), normal.x, normal.y)
     }
@@ -61,7 +63,9 @@ impl Line {
     pub fn support(self) -> Result<f64, Error> {
         let length = self.normal().length();
         if length == 0.0 {
-            return Err(Error::ZeroDirection { what: "the line at infinity" });
+            return Err(Error::ZeroDirection {
+                what: "the line at infinity",
+            });
         }
         Ok(-self.0.x / length)
     }
@@ -73,7 +77,9 @@ impl Line {
     pub fn signed_distance(self, point: DVec2) -> Result<f64, Error> {
         let length = self.normal().length();
         if length == 0.0 {
-            return Err(Error::ZeroDirection { what: "the line at infinity" });
+            return Err(Error::ZeroDirection {
+                what: "the line at infinity",
+            });
         }
         Ok((self.0.x + self.normal().dot(point)) / length)
     }
@@ -81,13 +87,21 @@ impl Line {
     /// The parallel line at signed distance `distance` along the normal.
     #[must_use]
     pub fn offset(self, distance: f64) -> Self {
-        Self(DVec3::new(self.0.x - distance * self.normal().length(), self.0.y, self.0.z))
+        Self(DVec3::new(
+            self.0.x - distance * self.normal().length(),
+            self.0.y,
+            self.0.z,
+        ))
     }
 
     /// The line moved by `vector`.
     #[must_use]
     pub fn translate(self, vector: DVec2) -> Self {
-        Self(DVec3::new(self.0.x - self.normal().dot(vector), self.0.y, self.0.z))
+        Self(DVec3::new(
+            self.0.x - self.normal().dot(vector),
+            self.0.y,
+            self.0.z,
+        ))
     }
 
     /// The line turned about the origin by the argument of the unit complex number `turn`.
@@ -123,7 +137,9 @@ impl TryFrom<DVec3> for Line {
 
     fn try_from(u: DVec3) -> Result<Self, Error> {
         if !u.is_finite() {
-            return Err(Error::NonFinite { what: "a line coordinate" });
+            return Err(Error::NonFinite {
+                what: "a line coordinate",
+            });
         }
         if u == DVec3::ZERO {
             return Err(Error::ZeroLine { index: 0 });
@@ -163,7 +179,10 @@ mod tests {
     #[test]
     fn degenerate_lines_are_named() {
         assert_eq!(Line::new(0.0, 0.0, 0.0), Err(Error::ZeroLine { index: 0 }));
-        assert!(matches!(Line::new(f64::NAN, 1.0, 0.0), Err(Error::NonFinite { .. })));
+        assert!(matches!(
+            Line::new(f64::NAN, 1.0, 0.0),
+            Err(Error::NonFinite { .. })
+        ));
         let infinity = Line::new(1.0, 0.0, 0.0).unwrap();
         assert!(infinity.support().is_err() && infinity.signed_distance(DVec2::X).is_err());
         assert!(Line::through(DVec2::ZERO, DVec2::ZERO).is_err());

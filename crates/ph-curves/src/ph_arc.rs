@@ -1,8 +1,10 @@
 //! The complex form of a rational Pythagorean-hodograph arc: two spinors and a support polynomial.
 
+use bezier_mass::{BezierCurve, bernstein};
 use glam::{DVec2, DVec3};
 
-use crate::complex::{conj, divide, sqrt, square};
+use crate::complex::{conj, sqrt, square};
+use crate::dual::rational_curve;
 use crate::{Error, Line};
 
 /// Largest `|w1 - w0|^2 / min(|w0|, |w1|)^2` for which the arc length is integrated by Gauss's rule.
@@ -32,6 +34,8 @@ const NEARLY_PROPORTIONAL: f64 = 0.25;
 ///
 /// Source: Pottmann's dual form `U = (-e(a^2+b^2), 2abf, (a^2-b^2)f)` with f = 1, `w = e^{i pi/4}(a - ib)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "StoredArc", into = "StoredArc"))]
 pub struct PhArc<const N: usize> {
     w0: DVec2,
     w1: DVec2,
@@ -76,13 +80,17 @@ impl<const N: usize> PhArc<N> {
     /// between them is a right angle or more (the normal then turns by pi or more).
     pub fn new(w0: DVec2, w1: DVec2, g: [f64; N]) -> Result<Self, Error> {
         if !(w0.is_finite() && w1.is_finite() && g.iter().all(|c| c.is_finite())) {
-            return Err(Error::NonFinite { what: "a coefficient of an arc" });
+            return Err(Error::NonFinite {
+                what: "a coefficient of an arc",
+            });
         }
         if N < 3 {
             return Err(Error::Pencil { class: Self::CLASS });
         }
         if w0 == DVec2::ZERO || w1 == DVec2::ZERO {
-            return Err(Error::ZeroDirection { what: "an end spinor of an arc" });
+            return Err(Error::ZeroDirection {
+                what: "an end spinor of an arc",
+            });
         }
         let turning = 2.0 * w0.perp_dot(w1).atan2(w0.dot(w1));
         if w0.dot(w1) <= 0.0 {
@@ -130,7 +138,11 @@ impl<const N: usize> PhArc<N> {
 
     /// Bernstein coefficients of `q = |w|^2`, the length of the polynomial normal.
     fn normal_length(&self) -> [f64; 3] {
-        [self.w0.length_squared(), self.w0.dot(self.w1), self.w1.length_squared()]
+        [
+            self.w0.length_squared(),
+            self.w0.dot(self.w1),
+            self.w1.length_squared(),
+        ]
     }
 
     /// Bernstein coefficients of the polynomial normal `w^2`.
@@ -185,7 +197,11 @@ impl<const N: usize> PhArc<N> {
         let w = self.spinor(t);
         let dw = self.w1 - self.w0;
         let [g, dg, ddg] = self.support_jet(t);
-        let (q, dq, ddq) = (w.length_squared(), 2.0 * w.dot(dw), 2.0 * dw.length_squared());
+        let (q, dq, ddq) = (
+            w.length_squared(),
+            2.0 * w.dot(dw),
+            2.0 * dw.length_squared(),
+        );
         (q * ddg - dq * dg + ddq * g) / (4.0 * self.kappa() * self.kappa())
     }
 
@@ -283,7 +299,11 @@ impl<const N: usize> PhArc<N> {
         let total = m * (m - 1.0);
         std::array::from_fn(|k| {
             let (a, b) = (m - k as f64, k as f64);
-            sum(a * (a - 1.0) / total, 2.0 * a * b / total, b * (b - 1.0) / total)
+            sum(
+                a * (a - 1.0) / total,
+                2.0 * a * b / total,
+                b * (b - 1.0) / total,
+            )
         })
     }
 
@@ -303,25 +323,75 @@ impl<const N: usize> PhArc<N> {
         std::array::from_fn(|k| DVec3::new(-self.g[k], normals[k].x, normals[k].y))
     }
 
+    /// How far each Bézier line moves along its normal in the offset at distance 1: the signed distance of
+    /// the unit circle's line from its centre, `c_i / |n_i|` (infinite for a control line at infinity).
+    #[must_use]
+    pub fn control_distances(&self) -> [f64; N] {
+        let (circle, normals) = (self.circle_coefficients(), self.control_normals());
+        std::array::from_fn(|k| circle[k] / normals[k].length())
+    }
+
+    /// Homogeneous Bernstein coefficients `(x0, x1, x2)` of the point form, of degree `N`: weights are those
+    /// of `2 kappa q`, so they are all negative for negative turning. [`TQuartic::quartic`] is the same
+    /// for class 3, without allocation.
+    #[must_use]
+    pub fn point_control(&self) -> Vec<DVec3> {
+        let w = [self.w0, self.w1];
+        let dw = self.w1 - self.w0;
+        // 2 kappa conj(w) C = i (g' w - 2 g w'), and times w to make the denominator real.
+        let inner: Vec<DVec2> =
+            bernstein::product_with(&bernstein::derivative(&self.g), &w, |g, w| *w * *g)
+                .iter()
+                .zip(&self.g)
+                .map(|(a, g)| *a - 2.0 * *g * dw)
+                .collect();
+        let numerator = bernstein::product_with(&w, &inner, |w, z| w.rotate(*z).perp());
+        let weights = bernstein::elevate_to(&self.normal_length(), N);
+        let scale = 2.0 * self.kappa();
+        numerator
+            .iter()
+            .zip(weights)
+            .map(|(x, q)| DVec3::new(scale * q, x.x, x.y))
+            .collect()
+    }
+
+    /// The exact rational point curve of degree `N`.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] if the coefficients overflow.
+    pub fn to_points(&self) -> Result<BezierCurve<DVec2>, Error> {
+        rational_curve(&self.point_control())
+    }
+
     /// The arc moved by `vector`.
     #[must_use]
     pub fn translate(&self, vector: DVec2) -> Self {
         let normals = self.control_normals();
-        Self { g: std::array::from_fn(|k| self.g[k] + normals[k].dot(vector)), ..*self }
+        Self {
+            g: std::array::from_fn(|k| self.g[k] + normals[k].dot(vector)),
+            ..*self
+        }
     }
 
     /// The arc turned about the origin by the argument of the unit complex number `turn`.
     #[must_use]
     pub fn rotate(&self, turn: DVec2) -> Self {
         let half = sqrt(turn);
-        Self { w0: half.rotate(self.w0), w1: half.rotate(self.w1), g: self.g }
+        Self {
+            w0: half.rotate(self.w0),
+            w1: half.rotate(self.w1),
+            g: self.g,
+        }
     }
 
     /// The arc scaled about the origin by `factor` (a negative factor keeps the normals and turns the
     /// arc inside out).
     #[must_use]
     pub fn scale(&self, factor: f64) -> Self {
-        Self { g: self.g.map(|c| c * factor), ..*self }
+        Self {
+            g: self.g.map(|c| c * factor),
+            ..*self
+        }
     }
 
     /// The mirror image in a finite line: `w -> i nu conj(w)`, `g -> g - 2ck`. The turning changes sign.
@@ -346,13 +416,21 @@ impl<const N: usize> PhArc<N> {
     pub fn reverse(&self) -> Self {
         let mut g = self.g;
         g.reverse();
-        Self { w0: self.w1, w1: self.w0, g }
+        Self {
+            w0: self.w1,
+            w1: self.w0,
+            g,
+        }
     }
 
     /// The same points with opposite normals: supports and radii change sign.
     #[must_use]
     pub fn flip(&self) -> Self {
-        Self { w0: self.w0.perp(), w1: self.w1.perp(), g: self.g.map(|c| -c) }
+        Self {
+            w0: self.w0.perp(),
+            w1: self.w1.perp(),
+            g: self.g.map(|c| -c),
+        }
     }
 
     /// The two parts at `t`, by de Casteljau's construction on `w` and `g`; both keep the scale.
@@ -361,7 +439,11 @@ impl<const N: usize> PhArc<N> {
     /// [`Error::OutsideDomain`] unless `0 < t < 1`.
     pub fn split(&self, t: f64) -> Result<(Self, Self), Error> {
         if !(t > 0.0 && t < 1.0) {
-            return Err(Error::OutsideDomain { value: t, start: 0.0, end: 1.0 });
+            return Err(Error::OutsideDomain {
+                value: t,
+                start: 0.0,
+                end: 1.0,
+            });
         }
         Ok(self.split_inside(t))
     }
@@ -376,7 +458,18 @@ impl<const N: usize> PhArc<N> {
             left[level] = right[0];
         }
         let w = self.spinor(t);
-        (Self { w0: self.w0, w1: w, g: left }, Self { w0: w, w1: self.w1, g: right })
+        (
+            Self {
+                w0: self.w0,
+                w1: w,
+                g: left,
+            },
+            Self {
+                w0: w,
+                w1: self.w1,
+                g: right,
+            },
+        )
     }
 
     /// The part between two parameters `0 <= start < end <= 1`.
@@ -385,14 +478,30 @@ impl<const N: usize> PhArc<N> {
     /// [`Error::OutsideDomain`] otherwise.
     pub fn part(&self, start: f64, end: f64) -> Result<Self, Error> {
         if !(start >= 0.0 && start < end) {
-            return Err(Error::OutsideDomain { value: start, start: 0.0, end });
+            return Err(Error::OutsideDomain {
+                value: start,
+                start: 0.0,
+                end,
+            });
         }
         if !(end <= 1.0) {
-            return Err(Error::OutsideDomain { value: end, start, end: 1.0 });
+            return Err(Error::OutsideDomain {
+                value: end,
+                start,
+                end: 1.0,
+            });
         }
-        let tail = if start > 0.0 { self.split_inside(start).1 } else { *self };
+        let tail = if start > 0.0 {
+            self.split_inside(start).1
+        } else {
+            *self
+        };
         let end = (end - start) / (1.0 - start);
-        Ok(if end < 1.0 { tail.split_inside(end).0 } else { tail })
+        Ok(if end < 1.0 {
+            tail.split_inside(end).0
+        } else {
+            tail
+        })
     }
 
     /// `int R d psi`, the length with the sign of radius times turning: parts beyond a cusp count
@@ -401,7 +510,11 @@ impl<const N: usize> PhArc<N> {
     pub fn signed_length(&self) -> f64 {
         let dw = self.w1 - self.w0;
         let slack = dw.length_squared() / self.w0.length_squared().min(self.w1.length_squared());
-        if slack <= NEARLY_PROPORTIONAL { self.length_by_gauss() } else { self.length_by_division() }
+        if slack <= NEARLY_PROPORTIONAL {
+            self.length_by_gauss()
+        } else {
+            self.length_by_division()
+        }
     }
 
     /// `2 kappa int R/q dt` by one Gauss rule.
@@ -410,7 +523,9 @@ impl<const N: usize> PhArc<N> {
         let sum: f64 = GAUSS_12
             .iter()
             .flat_map(|&(x, weight)| [(0.5 - 0.5 * x, weight), (0.5 + 0.5 * x, weight)])
-            .map(|(t, weight)| weight * bernstein_value(&radius, t) / self.spinor(t).length_squared())
+            .map(|(t, weight)| {
+                weight * bernstein::evaluate(&radius, t) / self.spinor(t).length_squared()
+            })
             .sum();
         self.kappa() * sum
     }
@@ -419,7 +534,11 @@ impl<const N: usize> PhArc<N> {
     fn length_by_division(&self) -> f64 {
         let mut remainder = power_coefficients(&self.radius_polynomial());
         let dw = self.w1 - self.w0;
-        let (q0, q1, q2) = (self.w0.length_squared(), 2.0 * self.w0.dot(dw), dw.length_squared());
+        let (q0, q1, q2) = (
+            self.w0.length_squared(),
+            2.0 * self.w0.dot(dw),
+            dw.length_squared(),
+        );
         let mut quotient_integral = 0.0;
         for k in (2..N).rev() {
             let a = remainder[k] / q2;
@@ -440,19 +559,47 @@ impl<const N: usize> PhArc<N> {
     /// # Errors
     /// [`Error::OutsideDomain`] unless `0 <= t <= 1`.
     pub fn signed_length_to(&self, t: f64) -> Result<f64, Error> {
-        if t == 0.0 { Ok(0.0) } else { Ok(self.part(0.0, t)?.signed_length()) }
+        if t == 0.0 {
+            Ok(0.0)
+        } else {
+            Ok(self.part(0.0, t)?.signed_length())
+        }
     }
 }
 
-/// Value of a Bernstein polynomial by de Casteljau's scheme.
-fn bernstein_value<const N: usize>(coefficients: &[f64; N], t: f64) -> f64 {
-    let mut row = *coefficients;
-    for level in 1..N {
-        for k in 0..N - level {
-            row[k] += t * (row[k + 1] - row[k]);
+/// The form in which an arc is serialized.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct StoredArc {
+    w0: DVec2,
+    w1: DVec2,
+    g: Vec<f64>,
+}
+
+#[cfg(feature = "serde")]
+impl<const N: usize> From<PhArc<N>> for StoredArc {
+    fn from(arc: PhArc<N>) -> Self {
+        Self {
+            w0: arc.w0,
+            w1: arc.w1,
+            g: arc.g.to_vec(),
         }
     }
-    row[0]
+}
+
+#[cfg(feature = "serde")]
+impl<const N: usize> TryFrom<StoredArc> for PhArc<N> {
+    type Error = Error;
+
+    fn try_from(stored: StoredArc) -> Result<Self, Error> {
+        let given = stored.g.len();
+        let g = stored.g.try_into().map_err(|_| Error::TooFew {
+            what: "support coefficients",
+            given,
+            needed: N,
+        })?;
+        Self::new(stored.w0, stored.w1, g)
+    }
 }
 
 /// Coefficients of the powers of t: binomials times forward differences.
@@ -481,7 +628,162 @@ const GAUSS_12: [(f64, f64); 6] = [
     (0.981_560_634_246_719_3, 0.047_175_336_386_511_83),
 ];
 
-/// The direction of `a / b`, used for the angle between two spinors or normals.
-pub(crate) fn quotient_direction(a: DVec2, b: DVec2) -> DVec2 {
-    divide(a, b).normalize_or_zero()
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    /// An arc of class 5 with no symmetry, its normals turning by `turning`.
+    fn arc(turning: f64) -> PhArc<6> {
+        let w0 = DVec2::from_angle(0.3) * 1.3;
+        let w1 = DVec2::from_angle(0.3 + 0.5 * turning) * 0.8;
+        PhArc::new(w0, w1, [2.0, 1.7, 2.2, 1.9, 2.4, 2.1]).unwrap()
+    }
+
+    #[test]
+    fn the_point_lies_on_its_tangent_and_moves_along_it() {
+        for turning in [1.1, -1.1, 2.9, 1e-2] {
+            let arc = arc(turning);
+            for t in [0.0, 0.2, 0.77, 1.0] {
+                let c = arc.contact(t);
+                let size = c.point.length();
+                assert!((c.normal.dot(c.point) - c.support).abs() < 1e-13 * size);
+                let step = 1e-6;
+                let chord = arc.point(t + step) - arc.point(t - step);
+                // dC/dpsi = R T, psi_t = 2 kappa / q
+                let (w0, w1) = arc.spinors();
+                let rate = 2.0 * w0.perp_dot(w1) / (w0 * (1.0 - t) + w1 * t).length_squared();
+                let predicted = c.normal.perp() * (c.radius * rate * 2.0 * step);
+                assert!(
+                    (chord - predicted).length() < 1e-4 * predicted.length(),
+                    "{turning} {t}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_radius_polynomial_is_the_radius() {
+        let arc = arc(-0.9);
+        let polynomial = arc.radius_polynomial();
+        for t in [0.0, 0.31, 0.5, 1.0] {
+            assert!(
+                (bernstein::evaluate(&polynomial, t) - arc.radius(t)).abs()
+                    < 1e-11 * arc.radius(t).abs()
+            );
+        }
+    }
+
+    #[test]
+    fn the_dual_form_and_the_point_form_are_the_arc() {
+        for turning in [1.1, -2.0] {
+            let arc = arc(turning);
+            let dual = crate::DualCurve::from(&arc);
+            let points = arc.to_points().unwrap();
+            assert_eq!(points.degree(), 6);
+            for t in [0.0, 0.25, 0.9, 1.0] {
+                let (c, d) = (arc.contact(t), dual.contact(t).unwrap());
+                assert!(
+                    (c.point - d.point).length() < 1e-13 && (c.normal - d.normal).length() < 1e-14
+                );
+                assert!((c.radius - d.radius).abs() < 1e-11 * c.radius.abs());
+                assert!((points.point(t).unwrap() - c.point).length() < 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn offsets_move_points_along_normals_and_lines_by_their_circle_distances() {
+        let arc = arc(1.4);
+        let moved = arc.offset(0.37);
+        let lines = crate::DualCurve::from(&arc)
+            .translate_lines(&arc.control_distances().map(|c| 0.37 * c))
+            .unwrap();
+        for t in [0.0, 0.4, 1.0] {
+            assert!((moved.point(t) - arc.point(t) - 0.37 * arc.normal(t)).length() < 1e-14);
+            assert!((moved.radius(t) - arc.radius(t) - 0.37).abs() < 1e-13);
+            assert!((lines.contact(t).unwrap().point - moved.point(t)).length() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn motions_act_on_points() {
+        let arc = arc(1.4);
+        let turn = DVec2::from_angle(2.6);
+        let vector = DVec2::new(-3.0, 0.5);
+        let mirror = Line::new(-0.7, 0.28, 0.96).unwrap();
+        let image = |p: DVec2| p - 2.0 * mirror.signed_distance(p).unwrap() * mirror.normal();
+        for t in [0.0, 0.6, 1.0] {
+            let p = arc.point(t);
+            assert!((arc.translate(vector).point(t) - p - vector).length() < 1e-14);
+            assert!((arc.rotate(turn).point(t) - turn.rotate(p)).length() < 1e-14);
+            assert!((arc.scale(-2.0).point(t) + 2.0 * p).length() < 1e-14);
+            assert!((arc.reflect(mirror).unwrap().point(t) - image(p)).length() < 1e-14);
+            assert!((arc.reverse().point(1.0 - t) - p).length() < 1e-14);
+            assert!((arc.flip().point(t) - p).length() < 1e-14);
+            assert!((arc.flip().normal(t) + arc.normal(t)).length() < 1e-14);
+        }
+        assert!((arc.reflect(mirror).unwrap().turning() + arc.turning()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn parts_keep_points_and_lengths_add_up() {
+        for turning in [0.05, 0.8, 2.9, -2.9] {
+            let arc = arc(turning);
+            let (left, right) = arc.split(0.3).unwrap();
+            assert!((left.point(0.5) - arc.point(0.15)).length() < 1e-11);
+            assert!((arc.part(0.2, 0.9).unwrap().point(0.5) - arc.point(0.55)).length() < 1e-11);
+            let sum = left.signed_length() + right.signed_length();
+            assert!(
+                (sum - arc.signed_length()).abs() < 1e-11 * sum.abs().max(1.0),
+                "{turning}"
+            );
+        }
+    }
+
+    #[test]
+    fn both_forms_of_the_length_agree() {
+        let arc = arc(1.0);
+        let (gauss, division) = (arc.length_by_gauss(), arc.length_by_division());
+        assert!(
+            (gauss - division).abs() < 1e-12 * gauss.abs(),
+            "{gauss} {division}"
+        );
+    }
+
+    #[test]
+    fn a_normal_is_found_where_it_occurs() {
+        for turning in [1e-6, 1.3, -3.1] {
+            let arc = arc(turning);
+            for t in [0.0, 0.11, 0.5, 0.93, 1.0] {
+                let found = arc.parameter_beyond(arc.normal(t));
+                assert!((found - t).abs() < 1e-9, "{turning} {t} {found}");
+            }
+            assert_eq!(arc.parameter_of_normal(-arc.normal(0.5)), None);
+        }
+    }
+
+    #[test]
+    fn impossible_arcs_are_refused() {
+        let g = [1.0; 4];
+        assert!(matches!(
+            TQuartic::new(DVec2::X, DVec2::X, g),
+            Err(Error::NoTurning { .. })
+        ));
+        assert!(
+            matches!(TQuartic::new(DVec2::X, DVec2::Y, g), Err(Error::TurningTooLarge { turning }) if (turning - PI).abs() < 1e-15)
+        );
+        assert!(matches!(
+            TQuartic::new(DVec2::X, DVec2::ZERO, g),
+            Err(Error::ZeroDirection { .. })
+        ));
+        assert!(matches!(
+            TQuartic::new(DVec2::X, DVec2::NAN, g),
+            Err(Error::NonFinite { .. })
+        ));
+        assert!(matches!(
+            PhArc::<2>::new(DVec2::X, DVec2::ONE, [1.0; 2]),
+            Err(Error::Pencil { class: 1 })
+        ));
+    }
 }

@@ -36,7 +36,9 @@ impl TCubic {
     /// [`Error::NonFinite`]; [`Error::NotTschirnhausen`] with the relative defect of `D1^2 = D0 D2`.
     pub fn new(points: [DVec2; 4]) -> Result<Self, Error> {
         if !points.iter().all(|p| p.is_finite()) {
-            return Err(Error::NonFinite { what: "a control point" });
+            return Err(Error::NonFinite {
+                what: "a control point",
+            });
         }
         let cubic = Self { points };
         let relative_defect = cubic.relative_defect();
@@ -60,7 +62,11 @@ impl TCubic {
         let [d0, d1, d2] = legs.map(|d| d / size);
         let (left, right) = (square(d1), d0.rotate(d2));
         let scale = left.length().max(right.length());
-        if scale == 0.0 { 1.0 } else { (left - right).length() / scale }
+        if scale == 0.0 {
+            1.0
+        } else {
+            (left - right).length() / scale
+        }
     }
 
     /// The one Tschirnhausen cubic from `a` to `c` with end tangents along `ab` and `bc` (Proposition 2).
@@ -71,7 +77,9 @@ impl TCubic {
     /// [`Error::NonFinite`]; [`Error::DegenerateTriangle`] for points on a line.
     pub fn in_triangle(a: DVec2, b: DVec2, c: DVec2) -> Result<Self, Error> {
         if !(a.is_finite() && b.is_finite() && c.is_finite()) {
-            return Err(Error::NonFinite { what: "a corner of the triangle" });
+            return Err(Error::NonFinite {
+                what: "a corner of the triangle",
+            });
         }
         let (to_a, to_c) = (a - b, c - b);
         let (first, second) = (to_a.length(), to_c.length());
@@ -81,9 +89,14 @@ impl TCubic {
         }
         let (to_a, to_c) = (to_a / first, to_c / second);
         // sin^2 and cos^2 of half the angle at b, both without cancellation.
-        let (sine, cosine) = (0.25 * (to_a - to_c).length_squared(), 0.25 * (to_a + to_c).length_squared());
+        let (sine, cosine) = (
+            0.25 * (to_a - to_c).length_squared(),
+            0.25 * (to_a + to_c).length_squared(),
+        );
         let reach = corner_reach(first, second, sine / (sine + cosine));
-        Ok(Self { points: [a, b + to_a * reach, b + to_c * reach, c] })
+        Ok(Self {
+            points: [a, b + to_a * reach, b + to_c * reach, c],
+        })
     }
 
     /// The caustic of parallel light that travels along `direction` and is reflected by the parabola
@@ -93,27 +106,42 @@ impl TCubic {
     ///
     /// # Errors
     /// [`Error::NonFinite`]; [`Error::ZeroDirection`] for a zero direction or focal length.
-    pub fn parabola_caustic(focal_length: f64, direction: DVec2, x0: f64, x1: f64) -> Result<Self, Error> {
-        if !(direction.is_finite() && focal_length.is_finite() && x0.is_finite() && x1.is_finite()) {
-            return Err(Error::NonFinite { what: "a parabola or its light" });
+    pub fn parabola_caustic(
+        focal_length: f64,
+        direction: DVec2,
+        x0: f64,
+        x1: f64,
+    ) -> Result<Self, Error> {
+        if !(direction.is_finite() && focal_length.is_finite() && x0.is_finite() && x1.is_finite())
+        {
+            return Err(Error::NonFinite {
+                what: "a parabola or its light",
+            });
         }
-        let light = direction.try_normalize().ok_or(Error::ZeroDirection { what: "the light" })?;
+        let light = direction
+            .try_normalize()
+            .ok_or(Error::ZeroDirection { what: "the light" })?;
         if focal_length == 0.0 {
-            return Err(Error::ZeroDirection { what: "the axis of a parabola of focal length 0" });
+            return Err(Error::ZeroDirection {
+                what: "the axis of a parabola of focal length 0",
+            });
         }
         let size = 4.0 * focal_length;
         let (x0, x1) = (x0 / size, x1 / size);
         // On y = x^2 the tangent is 1 + 2ix, the reflected ray tangent^2 conj(d), and the caustic lies on
         // it at Im(tangent conj(d)) / 4.
         let tangent = [x0, x1].map(|x| DVec2::new(1.0, 2.0 * x));
-        let ray = bernstein::product_with(&tangent, &tangent, |a, b| a.rotate(*b).rotate(conj(light)));
+        let ray =
+            bernstein::product_with(&tangent, &tangent, |a, b| a.rotate(*b).rotate(conj(light)));
         let reach = tangent.map(|tangent| 0.25 * light.perp_dot(tangent));
         let along = bernstein::product(&reach, &ray);
         let abscissa = [x0, x1].map(|x| DVec2::new(x, 0.0));
         let height = bernstein::product_with(&[x0, x1], &[x0, x1], |a, b| DVec2::new(0.0, a * b));
         let mirror = bernstein::elevate_to(&abscissa, 3);
         let height = bernstein::elevate_to(&height, 3);
-        Ok(Self { points: std::array::from_fn(|k| (mirror[k] + height[k] + along[k]) * size) })
+        Ok(Self {
+            points: std::array::from_fn(|k| (mirror[k] + height[k] + along[k]) * size),
+        })
     }
 
     /// The four control points.
@@ -144,8 +172,16 @@ impl TCubic {
     pub fn speed(&self) -> [f64; 3] {
         let [d0, d1, d2] = self.legs();
         let (l0, l2) = (d0.length(), d2.length());
-        let middle = if l0 >= l2 { d0.dot(d1) / l0 } else { d1.dot(d2) / l2 };
-        [3.0 * l0, if middle.is_nan() { 0.0 } else { 3.0 * middle }, 3.0 * l2]
+        let middle = if l0 >= l2 {
+            d0.dot(d1) / l0
+        } else {
+            d1.dot(d2) / l2
+        };
+        [
+            3.0 * l0,
+            if middle.is_nan() { 0.0 } else { 3.0 * middle },
+            3.0 * l2,
+        ]
     }
 
     /// Arc length `L0 + L2 + L1 cos tau`, tau the signed turning of one leg to the next (Proposition 1).
@@ -168,12 +204,16 @@ impl TCubic {
     /// have no class-3 involutes.
     pub fn involute(&self, radius: f64) -> Result<TQuartic, Error> {
         if !radius.is_finite() {
-            return Err(Error::NonFinite { what: "the radius of an involute" });
+            return Err(Error::NonFinite {
+                what: "the radius of an involute",
+            });
         }
         let [d0, _, d2] = self.legs();
         let (l0, l2) = (d0.length(), d2.length());
         let element = |centre: DVec2, travel: DVec2, radius: f64| {
-            let normal = travel.try_normalize().ok_or(Error::ZeroDirection { what: "an end leg of the cubic" })?;
+            let normal = travel.try_normalize().ok_or(Error::ZeroDirection {
+                what: "an end leg of the cubic",
+            })?;
             LineElement::new(centre + normal * radius, normal)
         };
         let start = element(self.points[0], d0, radius)?;
@@ -189,7 +229,9 @@ impl TCubic {
         let [d0, d1, _] = self.legs();
         let w0 = sqrt(3.0 * d0);
         if w0 == DVec2::ZERO {
-            return Err(Error::ZeroDirection { what: "the first leg of the cubic" });
+            return Err(Error::ZeroDirection {
+                what: "the first leg of the cubic",
+            });
         }
         Ok((w0, divide(3.0 * d1, w0)))
     }

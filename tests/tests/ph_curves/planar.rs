@@ -1,0 +1,197 @@
+//! Dual curves, class-3 arcs, Tschirnhausen cubics and the approximation by them (items a, b, c, d).
+
+use integration_tests::Case;
+use ph_curves::glam::{DVec2, DVec3};
+use ph_curves::{DualCurve, Error, G1Ends, Line, LineElement, TCubic, TQuartic};
+use serde_json::{Value, json};
+
+/// Answers the case if its kind is one of this file.
+pub(crate) fn answer(case: &Case<'_>) -> bool {
+    let result = match case.kind() {
+        "dual_eval" | "dual_eval_curvature" => dual_eval(case),
+        "dual_subdivide" => dual_subdivide(case),
+        "dual_elevate" => {
+            dual(case).map(|curve| case.compare("lines", vectors(curve.elevate().vectors())))
+        }
+        "dual_farin" => dual(case).map(|curve| case.compare("farin", vectors(&curve.farin()))),
+        "dual_from_farin" => dual_from_farin(case),
+        "class3_g1" => class3_g1(case),
+        "class3_alpha_interval" => class3_alpha_interval(case),
+        "class3_offset" => class3_offset(case),
+        "class3_split" => class3_split(case),
+        "t_connected" => t_connected(case),
+        "tcubic_test" => tcubic_test(case),
+        "tcubic_triangle" => tcubic_triangle(case),
+        "parabola_caustic" => parabola_caustic(case),
+        _ => return false,
+    };
+    if let Err(error) = result {
+        case.refuse(&error.to_string(), |_| true);
+    }
+    true
+}
+
+/// A yes/no test on rounded data.
+const RECOGNITION: f64 = 1e-9;
+
+fn point(case: &Case<'_>, key: &str) -> DVec2 {
+    let [x, y] = case
+        .numbers(key)
+        .try_into()
+        .expect("a point has two coordinates");
+    DVec2::new(x, y)
+}
+
+fn xy(p: DVec2) -> Value {
+    json!([p.x, p.y])
+}
+
+fn points(all: &[DVec2]) -> Value {
+    all.iter().map(|p| xy(*p)).collect()
+}
+
+fn vectors(all: &[DVec3]) -> Value {
+    all.iter().map(|u| json!([u.x, u.y, u.z])).collect()
+}
+
+fn lines(case: &Case<'_>, key: &str) -> Result<Vec<Line>, Error> {
+    case.rows(key)
+        .iter()
+        .map(|u| Line::new(u[0], u[1], u[2]))
+        .collect()
+}
+
+fn dual(case: &Case<'_>) -> Result<DualCurve, Error> {
+    DualCurve::new(&lines(case, "lines")?)
+}
+
+fn dual_eval(case: &Case<'_>) -> Result<(), Error> {
+    let (curve, t) = (dual(case)?, case.number("t"));
+    let contact = curve.contact(t)?;
+    case.compare("point", xy(contact.point));
+    case.compare("normal", xy(contact.normal));
+    case.compare("support", contact.support);
+    case.compare("radius", contact.radius);
+    case.compare("turn", curve.turn(t));
+    Ok(())
+}
+
+fn dual_subdivide(case: &Case<'_>) -> Result<(), Error> {
+    let (left, right) = dual(case)?.split(case.number("t"))?;
+    case.compare("left", vectors(left.vectors()));
+    case.compare("right", vectors(right.vectors()));
+    Ok(())
+}
+
+fn dual_from_farin(case: &Case<'_>) -> Result<(), Error> {
+    let curve = DualCurve::from_farin(&lines(case, "lines")?, &lines(case, "farin")?)?;
+    case.compare("lines", vectors(curve.vectors()));
+    Ok(())
+}
+
+fn ends(case: &Case<'_>) -> Result<G1Ends, Error> {
+    let element = |p: &str, n: &str| LineElement::new(point(case, p), point(case, n));
+    G1Ends::new(element("p0", "n0")?, element("p1", "n1")?)
+}
+
+fn class3_arc(case: &Case<'_>) -> Result<TQuartic, Error> {
+    ends(case)?.arc(case.number("alpha"))
+}
+
+fn class3_g1(case: &Case<'_>) -> Result<(), Error> {
+    let ends = ends(case)?;
+    let arc = ends.arc(case.number("alpha"))?;
+    let (w0, w1) = arc.spinors();
+    // The spinors are defined up to a common sign; the file uses the principal root for w0.
+    let sign = if w0.x < 0.0 || (w0.x == 0.0 && w0.y < 0.0) {
+        -1.0
+    } else {
+        1.0
+    };
+    case.compare("w0", xy(w0 * sign));
+    case.compare("w1", xy(w1 * sign));
+    case.compare("g", arc.coefficients().to_vec());
+    case.compare("lines", vectors(&arc.control_vectors()));
+    let [r0, r1] = arc.end_radii();
+    case.compare("radius0", r0);
+    case.compare("radius1", r1);
+    case.compare("mid_point_of_parameter_half", xy(arc.point(0.5)));
+    case.compare("regular", r0 * r1 > 0.0);
+    case.compare("length", arc.length());
+    case.compare("circle", (r0 - r1).abs() <= RECOGNITION * r0.abs());
+    Ok(())
+}
+
+fn class3_alpha_interval(case: &Case<'_>) -> Result<(), Error> {
+    let ends = ends(case)?;
+    let (low, high) = ends.regular_alphas()?;
+    let bound = |alpha: f64| {
+        if alpha.is_finite() {
+            json!(alpha)
+        } else {
+            Value::Null
+        }
+    };
+    case.compare("interval", json!([bound(low), bound(high)]));
+    case.compare("legs", json!([ends.legs().0, ends.legs().1]));
+    Ok(())
+}
+
+fn class3_offset(case: &Case<'_>) -> Result<(), Error> {
+    let offset = class3_arc(case)?.offset(case.number("d"));
+    case.compare("lines", vectors(&offset.control_vectors()));
+    case.compare("point_half", xy(offset.point(0.5)));
+    case.compare("radius0", offset.end_radii()[0]);
+    case.compare("radius1", offset.end_radii()[1]);
+    Ok(())
+}
+
+fn class3_split(case: &Case<'_>) -> Result<(), Error> {
+    let (left, right) = class3_arc(case)?.split(case.number("t"))?;
+    case.compare("left_alpha", left.alpha());
+    case.compare("right_alpha", right.alpha());
+    case.compare("left_lines", vectors(&left.control_vectors()));
+    case.compare("right_lines", vectors(&right.control_vectors()));
+    Ok(())
+}
+
+fn t_connected(case: &Case<'_>) -> Result<(), Error> {
+    let connected = ends(case)?.t_connected([case.number("r0"), case.number("r1")], RECOGNITION);
+    case.compare("connected", connected.is_some());
+    if let Some(alpha) = connected {
+        case.compare("alpha", alpha);
+    }
+    Ok(())
+}
+
+fn tcubic_test(case: &Case<'_>) -> Result<(), Error> {
+    let control: Vec<DVec2> = case
+        .rows("control")
+        .iter()
+        .map(|p| DVec2::new(p[0], p[1]))
+        .collect();
+    let cubic = TCubic::new(control.try_into().expect("four control points"));
+    case.compare("is_tcubic", cubic.is_ok());
+    if let Ok(cubic) = cubic {
+        case.compare("length", cubic.length());
+    }
+    Ok(())
+}
+
+fn tcubic_triangle(case: &Case<'_>) -> Result<(), Error> {
+    let b = point(case, "b");
+    let cubic = TCubic::in_triangle(point(case, "a"), b, point(case, "c"))?;
+    case.compare("e", xy(cubic.points()[1]));
+    case.compare("f", xy(cubic.points()[2]));
+    case.compare("m", (cubic.points()[1] - b).length());
+    case.compare("length", cubic.length());
+    Ok(())
+}
+
+fn parabola_caustic(case: &Case<'_>) -> Result<(), Error> {
+    let cubic = TCubic::parabola_caustic(0.25, point(case, "direction"), 0.0, 1.0)?;
+    case.compare("bezier_on_0_1", points(cubic.points()));
+    case.compare("is_tcubic", TCubic::new(*cubic.points()).is_ok());
+    case.seen("parabola");
+    Ok(())
+}
