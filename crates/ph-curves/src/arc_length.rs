@@ -56,6 +56,15 @@ impl ArcLength {
     ///
     /// [`Error::OutsideDomain`] unless `0 <= s <= total` (a rounding of the total beyond is clamped).
     pub fn parameter_at(&self, s: f64) -> Result<f64, Error> {
+        self.parameter_near(s, s / self.total())
+    }
+
+    /// As [`ArcLength::parameter_at`], from a guess: the parameter before, when lengths come in order.
+    ///
+    /// # Errors
+    ///
+    /// As for [`ArcLength::parameter_at`]; the guess may be anything.
+    pub fn parameter_near(&self, s: f64, guess: f64) -> Result<f64, Error> {
         let total = self.total();
         let slack = 4.0 * f64::EPSILON * total;
         if !(s >= -slack && s <= total + slack) {
@@ -68,7 +77,12 @@ impl ArcLength {
         if s <= 0.0 || s >= total {
             return Ok(if s <= 0.0 { 0.0 } else { 1.0 });
         }
-        let (mut low, mut high, mut t) = (0.0, 1.0, s / total);
+        let (mut low, mut high) = (0.0, 1.0);
+        let mut t = if guess > 0.0 && guess < 1.0 {
+            guess
+        } else {
+            s / total
+        };
         for _ in 0..INVERSION_STEPS {
             let excess = self.up_to(t) - s;
             if excess > 0.0 {
