@@ -195,4 +195,133 @@ pub enum Error {
         /// Number of halvings.
         depth: u32,
     },
+    /// The preimage does not satisfy the condition of quintics with a rational rotation-minimising frame.
+    #[error(
+        "no rational rotation-minimising frame: the condition is missed by {relative_residual} of the speed"
+    )]
+    NotRationalFrame {
+        /// Length of the residual over the largest squared norm of the preimage.
+        relative_residual: f64,
+    },
+    /// The equations of an interpolant were solved from every start without success.
+    #[error("no {what} was found for these data")]
+    NoInterpolant {
+        /// The kind of curve.
+        what: &'static str,
+    },
+    /// A hodograph whose speed is not a polynomial.
+    #[error(
+        "not a Pythagorean hodograph: its square root misses by {relative_residual} of its size"
+    )]
+    NotPythagorean {
+        /// Largest difference of coefficients over the largest coefficient.
+        relative_residual: f64,
+    },
+    /// A Bernstein coefficient of the common factor of a hodograph is negative.
+    #[error(
+        "the common factor of the hodograph has the coefficient {coefficient}: the speed may be negative"
+    )]
+    NegativeSpeed {
+        /// The coefficient.
+        coefficient: f64,
+    },
+    /// A span does not start where its predecessor ends.
+    #[error("span {} starts {distance} away from the end of span {index}", index + 1)]
+    Gap {
+        /// The span before the gap.
+        index: usize,
+        /// Distance of the two points.
+        distance: f64,
+    },
+    /// A feed rate or a period that is not positive.
+    #[error("the feed rate {feed:?} with period {period} does not move forward")]
+    BadFeed {
+        /// The feed rate.
+        feed: crate::FeedRate,
+        /// The time between two points.
+        period: f64,
+    },
+    /// An operation on control points was refused.
+    #[error(transparent)]
+    Bezier(#[from] bezier_mass::Error),
+    /// A polygon with an even number of vertices has no rosette of constant width.
+    #[error("the polygon has {vertices} vertices: constant width needs an odd number")]
+    EvenPolygon {
+        /// Number of vertices.
+        vertices: usize,
+    },
+    /// A polygon that turns both ways.
+    #[error(
+        "the polygon turns by {turn} rad at vertex {vertex}, against its turn at vertex 0, or not at all"
+    )]
+    NotLocallyConvex {
+        /// The vertex.
+        vertex: usize,
+        /// Signed turning angle there.
+        turn: f64,
+    },
+    /// Condition (1.8): a side of the polygon that no Tschirnhausen cubic of the chain can touch.
+    #[error(
+        "half the turning of the cubic along side {edge} would be {half_turning}: it must be positive (for a triangle: all angles acute)"
+    )]
+    NotCovered {
+        /// The side.
+        edge: usize,
+        /// The alternating sum of interior angles.
+        half_turning: f64,
+    },
+    /// An involute of constant width that is not convex.
+    #[error("the width is {width}; a regular rosette needs more than {minimum}")]
+    WidthTooSmall {
+        /// The width that was given.
+        width: f64,
+        /// The bound.
+        minimum: f64,
+    },
+    /// An arc of a closed curve turns right, or its radius of curvature is not positive throughout.
+    #[error("arc {index} is not convex and regular: its end radii are {} and {}", radii[0], radii[1])]
+    NotRegular {
+        /// The arc.
+        index: usize,
+        /// Signed radii of curvature at its ends (a zero may lie between positive ones).
+        radii: [f64; 2],
+    },
+    /// A radius of curvature that an oval of this constant width cannot have.
+    #[error(
+        "the radius of curvature is {radius}; on an oval of constant width {width} it lies between 0 and the width"
+    )]
+    BadRadius {
+        /// The radius that was given.
+        radius: f64,
+        /// The width.
+        width: f64,
+    },
+    /// The lift of a cam and its half turn do not add up to the width of its frame.
+    #[error(
+        "the lift at {angle} rad and half a turn on add up to the width but for {defect}: no cam of constant width moves so"
+    )]
+    NotAntisymmetric {
+        /// The angle with the largest defect found.
+        angle: f64,
+        /// Sum of the two lifts minus the width.
+        defect: f64,
+    },
+    /// A lift that no convex cam produces.
+    #[error(
+        "at {angle} rad the lift plus its second derivative is {radius}: the cam would need that radius of curvature, which must be positive"
+    )]
+    NotConvex {
+        /// The angle with the smallest radius found.
+        angle: f64,
+        /// The radius of curvature there.
+        radius: f64,
+    },
+    /// An indicatrix that is not centrally symmetric.
+    #[error(
+        "the indicatrix is not centrally symmetric: supports in opposite directions differ by {defect}"
+    )]
+    NotSymmetric {
+        /// The largest difference found.
+        defect: f64,
+    },
 }

@@ -1,18 +1,40 @@
 //! Planar curves whose offsets are exact.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+mod arc_length;
 mod class3;
 mod complex;
+mod constant_width;
 mod dual;
 mod error;
+mod interpolator;
 mod line;
 mod ph_arc;
+mod ph_spline;
+mod polynomial_ph;
+mod quadrature;
+mod quintic;
+mod rosette;
+mod spatial;
 mod t_cubic;
 
+pub use arc_length::ArcLength;
 pub use class3::{G1Ends, LineElement};
+pub use constant_width::{
+    EvolutePolygon, SupportJet, antipodal_arc, hermite_arc, interpolate_constant_width,
+};
 pub use dual::DualCurve;
 pub use error::Error;
 pub use glam;
+pub use interpolator::{FeedInterpolator, FeedPoint, FeedRate};
 pub use line::Line;
 pub use ph_arc::{Contact, PhArc, TQuartic};
+pub use ph_spline::{PhSpline, SplineEnds};
+pub use polynomial_ph::PolynomialPh;
+pub use quintic::Hermite;
+pub use rosette::{Diameter, Rosette};
+pub use spatial::{
+    Frame, Quaternion, RationalFrameQuintic, SpatialHermite, SpatialHermiteAngles, SpatialPh,
+    rotation_minimising_frames,
+};
 pub use t_cubic::TCubic;
