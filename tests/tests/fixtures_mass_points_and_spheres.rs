@@ -7,8 +7,8 @@ use integration_tests::{Case, Tolerance, judge, read};
 use serde_json::Value;
 
 mod mass_points_and_spheres {
-    pub mod plane;
-    pub mod spheres;
+    pub(crate) mod plane;
+    pub(crate) mod spheres;
 }
 use mass_points_and_spheres::{plane, spheres};
 

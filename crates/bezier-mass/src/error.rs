@@ -65,4 +65,12 @@ pub enum Error {
         /// The middle weight that was given.
         weight: f64,
     },
+    /// The conic is a parabola, which has no centre.
+    #[error(
+        "the conic is a parabola and has no centre: its discriminant {discriminant} is zero to rounding"
+    )]
+    NoCentre {
+        /// The discriminant `w1^2 - w0 w2`.
+        discriminant: f64,
+    },
 }

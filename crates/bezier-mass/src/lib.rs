@@ -1,6 +1,8 @@
 //! Rational Bézier and B-spline curves and patches whose control points may be points or vectors
 
+mod arc;
 mod biquadratic;
+mod conic;
 mod curve;
 mod error;
 mod homography;
@@ -12,7 +14,9 @@ mod vector_space;
 
 pub mod bernstein;
 
+pub use arc::Half;
 pub use biquadratic::Biquadratic;
+pub use conic::{CentralConic, Circle, Conic, Degenerate, Line, Parabola};
 pub use curve::BezierCurve;
 pub use error::Error;
 pub use homography::{Homography, Parameter};
