@@ -123,9 +123,10 @@ impl SphereVector {
     pub fn position_of(self, other: Self) -> SpherePosition {
         let (s, t) = (self.vector(), other.vector());
         let (product, _) = product_and_terms(s, t);
-        let relation = if same_unit_vector(s, t) {
+        let same = self.same_up_to_orientation(other);
+        let relation = if same == Some(1.0) {
             Relation::Identical
-        } else if same_unit_vector(s, -t) {
+        } else if same.is_some() {
             Relation::Opposite
         } else if decide_product(s, t, 0.0) {
             Relation::Orthogonal
@@ -148,32 +149,32 @@ impl SphereVector {
 
     /// Whether the two are the same sphere, `Some(1.0)` with the same orientation and `Some(-1.0)` with opposite ones.
     ///
-    /// Compared component by component in a frame in which this sphere is the unit sphere about the origin: the
-    /// product alone would not tell equal spheres from touching ones.
+    /// Centres and radii are compared in units of the radius: the product alone would not tell equal spheres from
+    /// touching ones.
     #[must_use]
     pub fn same_up_to_orientation(self, other: Self) -> Option<f64> {
-        let (s, t) = (self.vector(), other.vector());
-        if same_unit_vector(s, t) {
-            Some(1.0)
-        } else if same_unit_vector(s, -t) {
-            Some(-1.0)
-        } else {
-            None
-        }
+        same_within(self, other, DECISION)
     }
 }
 
-/// Equality of two unit vectors, in the frame in which the first is the unit sphere about the origin.
-fn same_unit_vector(s: LorentzVector, t: LorentzVector) -> bool {
+/// [`SphereVector::same_up_to_orientation`] to a given relative tolerance.
+pub(crate) fn same_within(a: SphereVector, b: SphereVector, tolerance: f64) -> Option<f64> {
+    let (s, t) = (a.vector(), b.vector());
+    [1.0, -1.0]
+        .into_iter()
+        .find(|&sign| same_unit_vector(s, sign * t, tolerance))
+}
+
+fn same_unit_vector(s: LorentzVector, t: LorentzVector, tolerance: f64) -> bool {
     if s.is_flat() || t.is_flat() {
         // A plane has no size of its own: compare coordinates, relative to the largest.
-        return (s - t).max_abs() <= DECISION * s.max_abs().max(t.max_abs());
+        return (s - t).max_abs() <= tolerance * s.max_abs().max(t.max_abs());
     }
     let (centres, radii) = ((s.v / s.o, t.v / t.o), (1.0 / s.o, 1.0 / t.o));
     // The subtraction of the centres cannot know more than their rounding.
-    let tolerance =
-        DECISION * radii.0.abs() + 4.0 * f64::EPSILON * (centres.0.length() + centres.1.length());
-    centres.0.distance(centres.1) <= tolerance && (radii.0 - radii.1).abs() <= tolerance
+    let allowed =
+        tolerance * radii.0.abs() + 4.0 * f64::EPSILON * (centres.0.length() + centres.1.length());
+    centres.0.distance(centres.1) <= allowed && (radii.0 - radii.1).abs() <= allowed
 }
 
 /// The light-like vector `s - sign t` of two touching spheres is their point of contact.

@@ -29,3 +29,7 @@ pub(crate) const JOINT: f64 = 1e-9;
 
 /// A direction counts as parallel to the axis when its sine is below this: the frame would lose eight digits.
 pub(crate) const PARALLEL: f64 = 1e-8;
+
+/// Equalities between the invariants of a curve that tell one kind of cyclide from another, in a frame in which one
+/// characteristic circle is the unit circle. The tail of the paper's seahorse is a hyperbola by 1e-4 only.
+pub(crate) const CLASSIFICATION: f64 = 1e-10;
