@@ -102,6 +102,16 @@ impl G1Ends {
                 }
             });
         }
+        let ends = Self::between(start, end);
+        if !(ends.legs.0.is_finite() && ends.legs.1.is_finite()) {
+            return Err(Error::NoTurning { turning: turn.y });
+        }
+        Ok(ends)
+    }
+
+    /// The G1 problem between elements known to turn by an angle in (-pi, pi) other than 0.
+    pub(crate) fn between(start: LineElement, end: LineElement) -> Self {
+        let turn = conj(start.normal).rotate(end.normal);
         let half = sqrt(turn).normalize();
         let z0 = sqrt(start.normal);
         let chord = end.point - start.point;
@@ -110,17 +120,19 @@ impl G1Ends {
             chord.dot(end.normal) / turn.y,
             -chord.dot(start.normal) / turn.y,
         );
-        if !(legs.0.is_finite() && legs.1.is_finite()) {
-            return Err(Error::NoTurning { turning: turn.y });
-        }
-        Ok(Self {
+        Self {
             start,
             end,
             spinors: (z0, z0.rotate(half)),
             cos_h: half.x,
             sin_h: half.y,
             legs,
-        })
+        }
+    }
+
+    /// Cosine and sine of half the turning.
+    pub(crate) const fn half_turning(&self) -> (f64, f64) {
+        (self.cos_h, self.sin_h)
     }
 
     /// Signed legs `(l0, l1)` of the tangent triangle: `P1 - P0 = l0 T0 + l1 T1`, `T = i N`.

@@ -5,6 +5,7 @@ mod arc_length;
 mod class3;
 mod complex;
 mod constant_width;
+mod curvature_element;
 mod dual;
 mod error;
 mod interpolator;
@@ -23,6 +24,7 @@ pub use class3::{G1Ends, LineElement};
 pub use constant_width::{
     EvolutePolygon, SupportJet, antipodal_arc, hermite_arc, interpolate_constant_width,
 };
+pub use curvature_element::{CurvatureElement, EvoluteTriangle, G2Pair, similarity_centre};
 pub use dual::DualCurve;
 pub use error::Error;
 pub use glam;
