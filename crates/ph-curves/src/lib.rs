@@ -13,6 +13,7 @@ mod line;
 mod ph_arc;
 mod ph_spline;
 mod polynomial_ph;
+mod pottmann;
 mod quadrature;
 mod quintic;
 mod rosette;
@@ -33,6 +34,7 @@ pub use line::Line;
 pub use ph_arc::{Contact, PhArc, TQuartic};
 pub use ph_spline::{PhSpline, SplineEnds};
 pub use polynomial_ph::PolynomialPh;
+pub use pottmann::{PottmannForm, TQuarticCoefficients};
 pub use quintic::Hermite;
 pub use rosette::{Diameter, Rosette};
 pub use spatial::{

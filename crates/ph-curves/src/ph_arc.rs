@@ -5,13 +5,17 @@ use glam::{DVec2, DVec3};
 
 use crate::complex::{conj, sqrt, square};
 use crate::dual::rational_curve;
+use crate::quadrature::integrate;
 use crate::{Error, Line};
 
 /// Largest `|w1 - w0|^2 / min(|w0|, |w1|)^2` for which the arc length is integrated by Gauss's rule.
 ///
 /// The closed form divides by `|w1 - w0|^2` and loses that many digits; the poles of the integrand
-/// are `|w0| / |w1 - w0| >= 2` away from the arc, where twelve nodes reach rounding (7.9^-24).
+/// are `|w0| / |w1 - w0| >= 2` away from the arc, where sixteen nodes reach rounding (7.9^-32).
 const NEARLY_PROPORTIONAL: f64 = 0.25;
+
+/// How far outside `[0, 1]` the parameter of an end normal may fall by rounding.
+const PARAMETER_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// A rational PH arc of class `N - 1`: unit normal `w^2/|w|^2` with `w = (1-t) w0 + t w1`, and
 /// support `p = g/|w|^2` with a real Bernstein polynomial `g` of degree `N - 1`.
@@ -262,7 +266,8 @@ impl<const N: usize> PhArc<N> {
     #[must_use]
     pub fn parameter_of_normal(&self, normal: DVec2) -> Option<f64> {
         let t = self.parameter_beyond(normal);
-        (0.0..=1.0).contains(&t).then_some(t)
+        let inside = (-PARAMETER_ROUNDING..=1.0 + PARAMETER_ROUNDING).contains(&t);
+        inside.then_some(t.clamp(0.0, 1.0))
     }
 
     /// The parameter of a normal that lies within a half turn of the start normal, also outside `[0, 1]`.
@@ -520,14 +525,8 @@ impl<const N: usize> PhArc<N> {
     /// `2 kappa int R/q dt` by one Gauss rule.
     fn length_by_gauss(&self) -> f64 {
         let radius = self.radius_polynomial();
-        let sum: f64 = GAUSS_12
-            .iter()
-            .flat_map(|&(x, weight)| [(0.5 - 0.5 * x, weight), (0.5 + 0.5 * x, weight)])
-            .map(|(t, weight)| {
-                weight * bernstein::evaluate(&radius, t) / self.spinor(t).length_squared()
-            })
-            .sum();
-        self.kappa() * sum
+        let rate = |t: f64| bernstein::evaluate(&radius, t) / self.spinor(t).length_squared();
+        2.0 * self.kappa() * integrate(0.0, 1.0, 1, rate)
     }
 
     /// The same from `R = A q + (b t + c)`: a polynomial, a logarithm and the angle h.
@@ -617,16 +616,6 @@ fn power_coefficients<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {
     }
     row
 }
-
-/// Positive nodes and weights of the twelve-point Gauss-Legendre rule on [-1, 1].
-const GAUSS_12: [(f64, f64); 6] = [
-    (0.125_233_408_511_468_92, 0.249_147_045_813_402_8),
-    (0.367_831_498_998_180_2, 0.233_492_536_538_354_8),
-    (0.587_317_954_286_617_4, 0.203_167_426_723_065_92),
-    (0.769_902_674_194_304_7, 0.160_078_328_543_346_23),
-    (0.904_117_256_370_474_9, 0.106_939_325_995_318_43),
-    (0.981_560_634_246_719_3, 0.047_175_336_386_511_83),
-];
 
 #[cfg(test)]
 mod tests {

@@ -18,16 +18,9 @@ pub(crate) const PENDING: &[&str] = &[
     "rmf_numeric",
     "rrmf",
     "spatial_ph_hermite",
-    "admissible",
     "curve_breakpoints",
     "g2_approximate",
-    "g2_two_tquartics",
     "spiral_error",
-    "theorem4",
-    "tquartic_abgd",
-    "dual_to_point_control",
-    "dual_arc_length",
-    "tquartic_offset_abgd",
 ];
 
 /// Answers the case if its kind is one of this file.

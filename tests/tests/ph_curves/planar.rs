@@ -2,7 +2,10 @@
 
 use integration_tests::Case;
 use ph_curves::glam::{DVec2, DVec3};
-use ph_curves::{DualCurve, Error, G1Ends, Line, LineElement, TCubic, TQuartic};
+use ph_curves::{
+    CurvatureElement, DualCurve, Error, EvoluteTriangle, G1Ends, G2Pair, Line, LineElement, TCubic,
+    TQuartic, TQuarticCoefficients, similarity_centre,
+};
 use serde_json::{Value, json};
 
 /// Answers the case if its kind is one of this file.
@@ -15,6 +18,13 @@ pub(crate) fn answer(case: &Case<'_>) -> bool {
         }
         "dual_farin" => dual(case).map(|curve| case.compare("farin", vectors(&curve.farin()))),
         "dual_from_farin" => dual_from_farin(case),
+        "dual_to_point_control" => dual_to_point_control(case),
+        "dual_arc_length" => dual_arc_length(case),
+        "tquartic_abgd" => tquartic_abgd(case),
+        "tquartic_offset_abgd" => tquartic_offset_abgd(case),
+        "admissible" => admissible(case),
+        "g2_two_tquartics" => g2_two_tquartics(case),
+        "theorem4" => theorem4(case),
         "class3_g1" => class3_g1(case),
         "class3_alpha_interval" => class3_alpha_interval(case),
         "class3_offset" => class3_offset(case),
@@ -73,6 +83,23 @@ fn dual_eval(case: &Case<'_>) -> Result<(), Error> {
     case.compare("support", contact.support);
     case.compare("radius", contact.radius);
     case.compare("turn", curve.turn(t));
+    Ok(())
+}
+
+fn dual_to_point_control(case: &Case<'_>) -> Result<(), Error> {
+    let curve = dual(case)?;
+    let control = curve.point_control();
+    case.compare("degree", control.len() - 1);
+    case.compare("control", vectors(&control));
+    let (reduced, factors) = curve.reduced_points();
+    case.compare("common_factor_degree", factors.len());
+    case.compare("reduced_degree", reduced.len() - 1);
+    case.compare("inflection_parameters", factors);
+    Ok(())
+}
+
+fn dual_arc_length(case: &Case<'_>) -> Result<(), Error> {
+    case.compare("length", dual(case)?.length()?);
     Ok(())
 }
 
@@ -193,5 +220,103 @@ fn parabola_caustic(case: &Case<'_>) -> Result<(), Error> {
     case.compare("bezier_on_0_1", points(cubic.points()));
     case.compare("is_tcubic", TCubic::new(*cubic.points()).is_ok());
     case.seen("parabola");
+    Ok(())
+}
+
+fn coefficients(case: &Case<'_>) -> TQuarticCoefficients {
+    let [alpha, beta, gamma, delta] =
+        ["alpha", "beta", "gamma", "delta"].map(|key| case.number(key));
+    TQuarticCoefficients {
+        alpha,
+        beta,
+        gamma,
+        delta,
+    }
+}
+
+fn tquartic_abgd(case: &Case<'_>) -> Result<(), Error> {
+    let arc = coefficients(case).arc(case.number("t0"), case.number("t1"))?;
+    let ends = [arc.contact(0.0), arc.contact(1.0)];
+    for (index, end) in ends.iter().enumerate() {
+        case.compare(&format!("p{index}"), xy(end.point));
+        case.compare(&format!("n{index}"), xy(end.normal));
+        case.compare(&format!("support{index}"), end.support);
+        case.compare(&format!("radius{index}"), end.radius);
+    }
+    case.compare("shape_alpha", arc.alpha());
+    case.compare("length", arc.length());
+    Ok(())
+}
+
+fn tquartic_offset_abgd(case: &Case<'_>) -> Result<(), Error> {
+    let offset = coefficients(case).offset(case.number("d"));
+    for (key, value) in [
+        ("alpha", offset.alpha),
+        ("beta", offset.beta),
+        ("gamma", offset.gamma),
+        ("delta", offset.delta),
+    ] {
+        case.compare(key, value);
+    }
+    Ok(())
+}
+
+/// A radius, which may be the word "inf".
+fn radius(case: &Case<'_>, key: &str) -> f64 {
+    match case.get(key).and_then(Value::as_str) {
+        Some("inf") => f64::INFINITY,
+        Some("-inf") => f64::NEG_INFINITY,
+        _ => case.number(key),
+    }
+}
+
+fn elements(case: &Case<'_>) -> Result<[CurvatureElement; 2], Error> {
+    let element = |p: &str, n: &str, r: &str| {
+        CurvatureElement::new(point(case, p), point(case, n), radius(case, r))
+    };
+    Ok([element("p0", "n0", "r0")?, element("p1", "n1", "r1")?])
+}
+
+fn admissible(case: &Case<'_>) -> Result<(), Error> {
+    let [start, end] = elements(case)?;
+    let triangle = EvoluteTriangle::new(&start, &end)?;
+    case.compare("admissible", triangle.is_admissible());
+    case.compare("lambda0", triangle.lambda0);
+    case.compare("lambda1", triangle.lambda1);
+    case.compare("evolute_length", triangle.evolute_length);
+    case.compare("centre_distance", triangle.centre_distance);
+    Ok(())
+}
+
+fn g2_two_tquartics(case: &Case<'_>) -> Result<(), Error> {
+    let [start, end] = elements(case)?;
+    let pair = G2Pair::new(&start, &end, case.number("beta"))?;
+    case.compare("admissible", true);
+    case.compare("alpha", pair.alpha);
+    case.compare("joint_evolute", xy(pair.joint.centre()));
+    case.compare("joint_point", xy(pair.joint.point()));
+    case.compare("joint_normal", xy(pair.joint.normal()));
+    case.compare("joint_radius", pair.joint.radius());
+    for (index, arc) in pair.arcs.iter().enumerate() {
+        let unit: Vec<DVec3> = arc
+            .control_vectors()
+            .iter()
+            .map(|u| *u / DVec2::new(u.y, u.z).length())
+            .collect();
+        case.compare(
+            &format!("arc{}_lines_normalised", index + 1),
+            vectors(&unit),
+        );
+        case.compare(&format!("shape_alpha{}", index + 1), arc.alpha());
+    }
+    Ok(())
+}
+
+fn theorem4(case: &Case<'_>) -> Result<(), Error> {
+    let centre = similarity_centre(
+        [point(case, "q0"), point(case, "q1")],
+        [case.number("rho0"), case.number("rho1")],
+    )?;
+    case.compare("s", xy(centre));
     Ok(())
 }
