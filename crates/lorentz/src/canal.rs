@@ -388,13 +388,13 @@ impl CanalMember {
         }
         let (a, b) = (x.o / curvature, tangent.o / curvature);
         let sign = if weight < 0.0 { -1.0 } else { 1.0 };
-        let axis = (sign * self.axis).try_normalize()?;
+        let axis = self.axis.try_normalize()?;
         let centre = (a * x.v + b * tangent.v) / curvature;
         centre.is_finite().then_some(Ring {
             centre,
             radius: weight.abs() / curvature,
             axis,
-            normal_along_axis: sign * b,
+            normal_along_axis: b,
             normal_outward: sign * a,
         })
     }

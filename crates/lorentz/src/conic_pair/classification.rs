@@ -2,7 +2,7 @@ use bezier_mass::VectorSpace;
 
 use crate::construct::ConicType;
 use crate::tolerance::CLASSIFICATION;
-use crate::{CharacteristicCircle, LorentzMap, LorentzVector, SphereCurve, SphereMassPoint};
+use crate::{CharacteristicCircle, Error, LorentzMap, LorentzVector, SphereCurve, SphereMassPoint};
 
 /// What a curve of spheres is the envelope of, found from its invariants (the whole conic, not the arc: a regular arc
 /// can belong to a horned cyclide).
@@ -102,24 +102,45 @@ impl std::fmt::Display for CyclideKind {
     }
 }
 
+impl Classification {
+    /// The classification of three controls, which may be linearly dependent and then need not be a curve of spheres.
+    ///
+    /// # Errors
+    /// [`Error::OffTheQuadric`] if they are independent and their curve leaves the space of spheres;
+    /// [`Error::NonFinite`].
+    pub fn of(control: [SphereMassPoint; 3]) -> Result<Self, Error> {
+        if control.iter().all(|b| b.is_finite()) && !independent(control.map(flat)) {
+            return Ok(Self::without_surface(
+                CyclideKind::DegenerateControlTriple,
+                None,
+            ));
+        }
+        Ok(SphereCurve::new(control)?.classify())
+    }
+
+    const fn without_surface(kind: CyclideKind, conic: Option<ConicType>) -> Self {
+        Self {
+            kind,
+            conic,
+            invariants: None,
+        }
+    }
+}
+
 impl SphereCurve {
     /// The kind of the surface that this family envelops, with the invariants that tell it.
     #[must_use]
     pub fn classify(&self) -> Classification {
         let k = self.envelope_invariant();
-        let none = |kind, conic| Classification {
-            kind,
-            conic,
-            invariants: None,
-        };
+        let none = Classification::without_surface;
         // K = 0 makes the three controls mutually Lie-orthogonal, which only two independent ones can be.
         if k == 0.0 || !independent(self.control().map(flat)) {
             return none(CyclideKind::DegenerateControlTriple, None);
         }
         let weight_discriminant_over_k = self.weight_discriminant() / k;
         let conic = ConicType::from_discriminant(
-            weight_discriminant_over_k,
-            CLASSIFICATION * self.discriminant_terms(|b| b.weight) / k.abs(),
+            self.weight_discriminant(),
+            CLASSIFICATION * self.discriminant_terms(|b| b.weight),
         );
         let own = Some(conic);
         let local = self.in_local_frame().unwrap_or(*self);
