@@ -24,6 +24,6 @@ pub mod demos;
 pub mod figure;
 pub mod gallery;
 pub mod image;
-// MESH
-// RENDER
+pub mod mesh;
+pub mod render;
 pub mod report;

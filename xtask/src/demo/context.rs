@@ -11,6 +11,7 @@ use serde_json::Value;
 
 use crate::figure::Figure;
 use crate::image::{Image, write_animation};
+use crate::render::{Camera, Options, Picture as RenderedPicture, Scene, render};
 use crate::report::{Measured, Picture, Report, Target};
 
 /// The flags that all demos share.
@@ -25,7 +26,7 @@ pub struct Settings {
     /// Height of rendered pictures in pixels [default: three quarters of the width]
     #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=16384))]
     pub height: Option<u32>,
-    /// Rays per pixel of rendered pictures [default: 64, quick 16]
+    /// Rays per pixel of rendered pictures [default: 32, quick 8]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub samples: Option<u32>,
     /// Seed of everything random
@@ -105,7 +106,7 @@ impl Context {
     pub fn samples(&self) -> u32 {
         self.settings
             .samples
-            .unwrap_or(if self.quick() { 16 } else { 64 })
+            .unwrap_or(if self.quick() { 8 } else { 32 })
     }
 
     /// Seed of everything random.
@@ -208,6 +209,46 @@ impl Context {
         })?;
         self.show(name, caption, alt);
         Ok(())
+    }
+
+    /// Width over height of rendered pictures.
+    #[must_use]
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.width()) / f64::from(self.height())
+    }
+
+    /// Renders a scene at the size asked for as `NAME.exr` (with its layers) and `NAME.png`. Names
+    /// start with `render`.
+    ///
+    /// # Errors
+    /// As [`Context::file`].
+    pub fn render(
+        &mut self,
+        name: &str,
+        scene: &Scene,
+        camera: &Camera,
+        caption: &str,
+        alt: &str,
+    ) -> Result<()> {
+        let picture = self.picture_of(name, scene, camera);
+        self.file(&format!("{name}.exr"), |file| picture.write_exr(file))?;
+        self.picture(name, &picture.image(), caption, alt)
+    }
+
+    /// Renders a scene at the size asked for, for an animation or for pictures side by side.
+    #[must_use]
+    pub fn picture_of(&self, what: &str, scene: &Scene, camera: &Camera) -> RenderedPicture {
+        let (width, height) = (self.width(), self.height());
+        let options = Options {
+            width,
+            height,
+            samples: self.samples(),
+            seed: self.seed(),
+        };
+        let bar = self.progress(what, u64::from(height));
+        let picture = render(scene, camera, options, |_| bar.inc(1));
+        bar.finish_and_clear();
+        picture
     }
 
     fn show(&mut self, name: &str, caption: &str, alt: &str) {

@@ -1,0 +1,151 @@
+//! A rendered picture: linear light and the data layers, tone-mapped for the screen.
+
+use std::io::{Seek, Write};
+
+use anyhow::Result;
+
+use super::exr;
+use crate::image::Image;
+
+/// One pixel with its data.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Pixel {
+    pub(super) color: [f32; 4],
+    pub(super) depth: f32,
+    pub(super) normal: [f32; 3],
+    pub(super) id: u32,
+    pub(super) scalar: f32,
+}
+
+impl Pixel {
+    /// The depth of a pixel that shows only the backdrop.
+    pub(super) const FAR: f32 = 1e10;
+}
+
+/// Linear, scene-referred colour and the data of the surface in the middle of every pixel.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    width: u32,
+    height: u32,
+    pixels: Vec<Pixel>,
+    layer: Option<String>,
+}
+
+impl Picture {
+    pub(super) const fn new(
+        width: u32,
+        height: u32,
+        pixels: Vec<Pixel>,
+        layer: Option<String>,
+    ) -> Self {
+        Self {
+            width,
+            height,
+            pixels,
+            layer,
+        }
+    }
+
+    /// Linear red, green, blue and alpha, row by row from the top.
+    pub fn colors(&self) -> impl Iterator<Item = [f32; 4]> {
+        self.pixels.iter().map(|pixel| pixel.color)
+    }
+
+    /// Object numbers, row by row from the top; 0 is the ground or the backdrop.
+    pub fn ids(&self) -> impl Iterator<Item = u32> {
+        self.pixels.iter().map(|pixel| pixel.id)
+    }
+
+    /// Distances along the line of sight in world units; 1e10 for the backdrop.
+    pub fn depths(&self) -> impl Iterator<Item = f32> {
+        self.pixels.iter().map(|pixel| pixel.depth)
+    }
+
+    /// Unit normals on the viewer's side in world directions; zero for the backdrop.
+    pub fn normals(&self) -> impl Iterator<Item = [f32; 3]> {
+        self.pixels.iter().map(|pixel| pixel.normal)
+    }
+
+    /// The vertices' numbers, interpolated; 0 where there is none.
+    pub fn scalars(&self) -> impl Iterator<Item = f32> {
+        self.pixels.iter().map(|pixel| pixel.scalar)
+    }
+
+    /// The picture for the screen.
+    #[must_use]
+    pub fn image(&self) -> Image {
+        let bytes = self.pixels.iter().flat_map(|pixel| {
+            let [r, g, b, _] = pixel.color;
+            let [r, g, b] = tone_map([r, g, b]).map(display);
+            [r, g, b, 255]
+        });
+        Image::new(self.width, self.height, bytes.collect())
+    }
+
+    /// The picture as OpenEXR: linear RGBA, `depth.Z`, `normal.X/Y/Z`, `id.I`, and the layer of the
+    /// vertices' numbers if the scene names one. The same picture gives the same bytes.
+    ///
+    /// # Errors
+    /// Whatever the writer reports.
+    pub fn write_exr(&self, writer: impl Write + Seek) -> Result<()> {
+        exr::write(
+            self.width,
+            self.height,
+            &self.pixels,
+            self.layer.as_deref(),
+            writer,
+        )
+    }
+}
+
+/// Khronos' PBR Neutral tone mapping: colours stay what they are up to 0.8, highlights are
+/// compressed, and lose colour only as they near white.
+fn tone_map(color: [f32; 3]) -> [f32; 3] {
+    const START: f32 = 0.8 - 0.04;
+    const DESATURATION: f32 = 0.15;
+    let lowest = color.into_iter().fold(f32::INFINITY, f32::min).max(0.0);
+    let offset = if lowest < 0.08 {
+        lowest - 6.25 * lowest * lowest
+    } else {
+        0.04
+    };
+    let color = color.map(|c| c - offset);
+    let peak = color.into_iter().fold(0.0, f32::max);
+    if peak < START {
+        return color;
+    }
+    let room = 1.0 - START;
+    let new_peak = 1.0 - room * room / (peak + room - START);
+    let grey = 1.0 - 1.0 / (DESATURATION * (peak - new_peak) + 1.0);
+    color.map(|c| {
+        let c = c * new_peak / peak;
+        c + (new_peak - c) * grey
+    })
+}
+
+/// The byte that shows a linear value.
+fn display(linear: f32) -> u8 {
+    let c = linear.clamp(0.0, 1.0);
+    let encoded = if c <= 0.003_130_8 {
+        12.92 * c
+    } else {
+        1.055 * c.powf(1.0 / 2.4) - 0.055
+    };
+    (encoded * 255.0).round() as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tone_mapping_keeps_order_and_range() {
+        let mut before = -1.0;
+        for i in 0..2000 {
+            let [r, g, b] = tone_map([i as f32 * 0.01; 3]);
+            assert!(r == g && g == b && r > before && r < 1.0, "{i}: {r}");
+            before = r;
+        }
+        assert_eq!([0.0, 1.0, 0.5].map(display), [0, 255, 188]);
+    }
+}

@@ -1,0 +1,395 @@
+//! The light that comes back along a ray.
+
+use std::f32::consts::{PI, TAU};
+
+use glam::{Vec3A, vec3a};
+
+use super::accel::{Accel, Hit};
+use super::environment::{KEY, Studio, smoothstep};
+use super::material::{Finish, Material, Paint};
+use super::picture::Pixel;
+use super::sampler::Sampler;
+use super::scene::Scene;
+use crate::color::Color;
+
+/// Distance by which rays start off a surface, in the unit ball's coordinates: some hundred roundings.
+const OFFSET: f32 = 3e-5;
+/// Clear shells that one ray may pass.
+const MOST_SHELLS: usize = 16;
+/// Share of light that a clear coat mirrors head on: that of glass and glaze in air.
+const HEAD_ON: f32 = 0.04;
+/// Half the width of an isoline, in the unit ball's coordinates.
+const LINE: f32 = 0.0028;
+
+/// A surface point as the shader sees it.
+struct Surface {
+    point: Vec3A,
+    /// Shading normal on the viewer's side.
+    normal: Vec3A,
+    /// The triangle's own normal on the viewer's side.
+    plane: Vec3A,
+    /// Where rays towards the light start.
+    start: Vec3A,
+    color: Vec3A,
+    finish: Finish,
+}
+
+/// Vertex data of one object in the unit ball's coordinates.
+struct Vertices {
+    positions: Vec<Vec3A>,
+    normals: Vec<Vec3A>,
+    scalar: Option<Vec<f32>>,
+    triangles: Vec<[u32; 3]>,
+    material: Material,
+}
+
+/// Everything that a ray may ask.
+pub(super) struct Shader<'a> {
+    accel: &'a Accel,
+    studio: &'a Studio,
+    objects: Vec<Vertices>,
+}
+
+impl<'a> Shader<'a> {
+    pub(super) fn new(scene: &Scene, accel: &'a Accel, studio: &'a Studio) -> Self {
+        let vertices = scene.objects.iter().map(|object| Vertices {
+            positions: object
+                .mesh
+                .positions
+                .iter()
+                .map(|&p| accel.local(p))
+                .collect(),
+            normals: object.mesh.normals.iter().map(|n| n.as_vec3a()).collect(),
+            scalar: object
+                .mesh
+                .scalar
+                .as_ref()
+                .map(|s| s.iter().map(|&x| x as f32).collect()),
+            triangles: object.mesh.triangles.clone(),
+            material: object.material,
+        });
+        Self {
+            accel,
+            studio,
+            objects: vertices.collect(),
+        }
+    }
+
+    /// The data layers of the pixel whose centre is in `direction`.
+    pub(super) fn first_hit(
+        &self,
+        eye: Vec3A,
+        direction: Vec3A,
+        forward: Vec3A,
+        unit: f64,
+    ) -> Pixel {
+        let to_depth = f64::from(direction.dot(forward)) * unit;
+        let ground = self.ground_distance(eye, direction);
+        match self.accel.trace(eye, direction, 0.0) {
+            Some(hit) if ground.is_none_or(|distance| hit.distance <= distance) => {
+                let object = &self.objects[hit.object as usize];
+                let normal = object.normal(&hit);
+                let normal = if normal.dot(direction) > 0.0 {
+                    -normal
+                } else {
+                    normal
+                };
+                Pixel {
+                    color: [0.0; 4],
+                    depth: (f64::from(hit.distance) * to_depth) as f32,
+                    normal: normal.to_array(),
+                    id: hit.object + 1,
+                    scalar: object.scalar(&hit).unwrap_or(0.0),
+                }
+            }
+            _ => Pixel {
+                color: [0.0; 4],
+                depth: ground.map_or(Pixel::FAR, |distance| {
+                    (f64::from(distance) * to_depth) as f32
+                }),
+                normal: if ground.is_some() {
+                    [0.0, 0.0, 1.0]
+                } else {
+                    [0.0; 3]
+                },
+                id: 0,
+                scalar: 0.0,
+            },
+        }
+    }
+
+    /// Light along a ray from the eye.
+    pub(super) fn radiance(&self, eye: Vec3A, direction: Vec3A, sampler: &mut Sampler) -> Vec3A {
+        let mut light = Vec3A::ZERO;
+        let mut passed = Vec3A::ONE;
+        let mut nearest = 0.0;
+        for _ in 0..MOST_SHELLS {
+            let ground = self.ground_distance(eye, direction);
+            let hit = self.accel.trace(eye, direction, nearest);
+            let hit = hit.filter(|hit| ground.is_none_or(|distance| hit.distance <= distance));
+            let Some(hit) = hit else {
+                let backdrop = Studio::backdrop(direction);
+                let shade = ground.map_or(Vec3A::ONE, |distance| {
+                    self.ground_shade(eye + direction * distance, sampler)
+                });
+                return light + passed * backdrop * shade;
+            };
+            let surface = self.surface(eye, direction, &hit);
+            if surface.finish != Finish::Glass {
+                return light + passed * self.shade(&surface, direction, sampler);
+            }
+            // A thin shell: the longer the way through it, the less passes.
+            let facing = surface.normal.dot(-direction).clamp(0.02, 1.0);
+            let opacity = 1.0 - (1.0 - 0.22_f32).powf(1.0 / facing);
+            let fresnel = fresnel(facing);
+            light += passed * self.shade(&surface, direction, sampler) * opacity.max(fresnel);
+            let tint = Vec3A::ONE.lerp(surface.color, 0.35);
+            passed *= tint * (1.0 - opacity.max(fresnel));
+            nearest = hit.distance + OFFSET;
+        }
+        light
+    }
+
+    fn ground_distance(&self, eye: Vec3A, direction: Vec3A) -> Option<f32> {
+        let height = eye.z - self.studio.ground?;
+        let distance = -height / direction.z;
+        (height > 0.0 && direction.z < 0.0 && distance.is_finite()).then_some(distance)
+    }
+
+    /// How much light the ground gets, over what it would get if nothing stood on it.
+    fn ground_shade(&self, point: Vec3A, sampler: &mut Sampler) -> Vec3A {
+        let start = point + Vec3A::Z * OFFSET;
+        let key = KEY * self.studio.key().z.max(0.1);
+        let got = key * self.key_visibility(start, Vec3A::Z, sampler)
+            + self.sky(start, Vec3A::Z, sampler);
+        let open = key + vec3a(0.39, 0.43, 0.495);
+        (got / open).min(Vec3A::ONE)
+    }
+
+    fn key_visibility(&self, start: Vec3A, normal: Vec3A, sampler: &mut Sampler) -> f32 {
+        let towards = self.studio.key_sample(sampler.pair());
+        if towards.dot(normal) > 0.0 && self.accel.is_free(start, towards, f32::INFINITY) {
+            self.accel.clearness(start, towards)
+        } else {
+            0.0
+        }
+    }
+
+    /// Light from one direction of the hemisphere: the sky, or the surface that hides it.
+    fn sky(&self, start: Vec3A, normal: Vec3A, sampler: &mut Sampler) -> Vec3A {
+        let direction = cosine_sample(normal, sampler.pair());
+        match self.accel.trace(start, direction, 0.0) {
+            None => Studio::sky(direction),
+            Some(hit) => {
+                let surface = self.surface(start, direction, &hit);
+                let clear = if surface.finish == Finish::Glass {
+                    0.6
+                } else {
+                    0.0
+                };
+                self.rough_shade(&surface)
+                    .lerp(Studio::sky(direction), clear)
+            }
+        }
+    }
+
+    /// The shade of a surface that is seen only by reflection: no shadows.
+    fn rough_shade(&self, surface: &Surface) -> Vec3A {
+        let key = KEY * surface.normal.dot(self.studio.key()).max(0.0) * 0.6;
+        surface.color * (key + Studio::sky(surface.normal) * 0.6)
+    }
+
+    fn shade(&self, surface: &Surface, direction: Vec3A, sampler: &mut Sampler) -> Vec3A {
+        let facing = surface.normal.dot(self.studio.key());
+        let visible = if facing > 0.0 {
+            self.key_visibility(surface.start, surface.plane, sampler)
+        } else {
+            0.0
+        };
+        let key = KEY * (facing.max(0.0) * visible);
+        let diffuse = surface.color * (key + self.sky(surface.start, surface.normal, sampler));
+        if surface.finish == Finish::Matte {
+            return diffuse;
+        }
+        let towards_eye = -direction;
+        let share = fresnel(surface.normal.dot(towards_eye).clamp(0.0, 1.0));
+        let mirrored = self.mirrored(surface, direction, sampler);
+        let glint = glint(surface.normal, towards_eye, self.studio.key()) * visible;
+        diffuse * (1.0 - share) + mirrored * share + KEY * glint
+    }
+
+    /// What a clear coat mirrors: the studio, or another surface.
+    fn mirrored(&self, surface: &Surface, direction: Vec3A, sampler: &mut Sampler) -> Vec3A {
+        let [u, v] = sampler.pair();
+        // A slightly rough coat: the mirrored direction is spread over a few degrees.
+        let mirror = reflect(direction, surface.normal);
+        let spread = 0.06 * u.sqrt();
+        let (sin, cos) = (TAU * v).sin_cos();
+        let across = mirror.any_orthonormal_vector();
+        let mirror =
+            (mirror + across * (spread * cos) + mirror.cross(across) * (spread * sin)).normalize();
+        if mirror.dot(surface.plane) <= 0.0 {
+            return Studio::sky(mirror);
+        }
+        match self.accel.trace(surface.start, mirror, 0.0) {
+            Some(hit) => self.rough_shade(&self.surface(surface.start, mirror, &hit)),
+            None => self.studio.mirrored(mirror),
+        }
+    }
+
+    fn surface(&self, origin: Vec3A, direction: Vec3A, hit: &Hit) -> Surface {
+        let object = &self.objects[hit.object as usize];
+        let point = origin + direction * hit.distance;
+        let mut normal = object.normal(hit);
+        let mut plane = hit.plane;
+        let behind = plane.dot(direction) > 0.0;
+        if behind {
+            plane = -plane;
+        }
+        if normal.dot(plane) < 0.0 {
+            normal = -normal;
+        }
+        let start = object.smooth_point(hit, point, behind) + plane * OFFSET;
+        let color = object.color(hit, normal, direction);
+        Surface {
+            point,
+            normal,
+            plane,
+            start,
+            color,
+            finish: object.material.finish,
+        }
+        .facing(direction)
+    }
+}
+
+impl Surface {
+    /// Near the outline an interpolated normal may lean away from the viewer: it is bent back.
+    fn facing(self, direction: Vec3A) -> Self {
+        let away = self.normal.dot(direction);
+        debug_assert!(self.point.is_finite());
+        if away < 0.0 {
+            return self;
+        }
+        let normal = (self.normal - direction * (away + 0.01)).normalize_or(self.plane);
+        Self { normal, ..self }
+    }
+}
+
+impl Vertices {
+    fn corners(&self, hit: &Hit) -> [usize; 3] {
+        self.triangles[hit.triangle as usize].map(|i| i as usize)
+    }
+
+    fn normal(&self, hit: &Hit) -> Vec3A {
+        let [a, b, c] = self.corners(hit);
+        let [u, v, w] = hit.weights;
+        (self.normals[a] * u + self.normals[b] * v + self.normals[c] * w).normalize_or(hit.plane)
+    }
+
+    fn scalar(&self, hit: &Hit) -> Option<f32> {
+        let scalar = self.scalar.as_ref()?;
+        let [a, b, c] = self.corners(hit);
+        let [u, v, w] = hit.weights;
+        Some(scalar[a] * u + scalar[b] * v + scalar[c] * w).filter(|x| x.is_finite())
+    }
+
+    /// The point lifted from the facet to the surface that the vertex normals describe, so that a
+    /// facet does not shade its neighbour where the light grazes (Hanika, *Hacking the shadow
+    /// terminator*, Ray Tracing Gems II, 2021).
+    fn smooth_point(&self, hit: &Hit, point: Vec3A, behind: bool) -> Vec3A {
+        let side = if behind { -1.0 } else { 1.0 };
+        let lift = |(&corner, weight): (&usize, f32)| {
+            let normal = self.normals[corner] * side;
+            let below = (point - self.positions[corner]).dot(normal).min(0.0);
+            normal * (-below * weight)
+        };
+        self.corners(hit)
+            .iter()
+            .zip(hit.weights)
+            .map(lift)
+            .fold(point, |sum, lift| sum + lift)
+    }
+
+    fn color(&self, hit: &Hit, normal: Vec3A, direction: Vec3A) -> Vec3A {
+        let linear = |color: Color| Vec3A::from_array(color.linear());
+        match self.material.paint {
+            Paint::Plain(color) => linear(color),
+            Paint::Zebra { stripes } => {
+                let mirror = reflect(direction, normal);
+                let angle = mirror.dot(vec3a(0.36, 0.48, 0.8)).clamp(-1.0, 1.0).acos();
+                let wave = (angle * stripes).sin();
+                Vec3A::splat(0.025).lerp(Vec3A::splat(0.9), smoothstep(-0.08, 0.08, wave))
+            }
+            Paint::Scalar {
+                map,
+                low,
+                high,
+                isolines,
+            } => {
+                let Some(value) = self.scalar(hit) else {
+                    return linear(crate::color::GREY);
+                };
+                let color = linear(map.at((f64::from(value) - low) / (high - low)));
+                let line = isolines.map_or(0.0, |spacing| self.isoline(hit, value, spacing as f32));
+                color * (1.0 - 0.85 * line)
+            }
+        }
+    }
+
+    /// One on an isoline, zero off it: the distance to the next multiple of `spacing` is the difference of
+    /// the numbers over the length of their gradient in the triangle.
+    fn isoline(&self, hit: &Hit, value: f32, spacing: f32) -> f32 {
+        let Some(scalar) = &self.scalar else {
+            return 0.0;
+        };
+        let [a, b, c] = self.corners(hit);
+        let (e1, e2) = (
+            self.positions[b] - self.positions[a],
+            self.positions[c] - self.positions[a],
+        );
+        let (d1, d2) = (scalar[b] - scalar[a], scalar[c] - scalar[a]);
+        let normal = e1.cross(e2);
+        let gradient = (e2 * d1 - e1 * d2).cross(normal) / normal.length_squared();
+        let off = (value - spacing * (value / spacing).round()).abs();
+        let distance = off / gradient.length();
+        1.0 - smoothstep(
+            0.6 * LINE,
+            1.2 * LINE,
+            if distance.is_nan() { 1.0 } else { distance },
+        )
+    }
+}
+
+fn reflect(direction: Vec3A, normal: Vec3A) -> Vec3A {
+    direction - normal * (2.0 * direction.dot(normal))
+}
+
+/// Schlick's approximation of the share of light that a clear coat mirrors.
+fn fresnel(facing: f32) -> f32 {
+    HEAD_ON + (1.0 - HEAD_ON) * (1.0 - facing).powi(5)
+}
+
+/// The key light mirrored by a coat of some roughness (the distribution of Trowbridge and Reitz).
+fn glint(normal: Vec3A, towards_eye: Vec3A, key: Vec3A) -> f32 {
+    const ROUGHNESS: f32 = 0.17;
+    let half = (towards_eye + key).normalize_or(normal);
+    let (cosine, square) = (normal.dot(half).max(0.0), ROUGHNESS * ROUGHNESS);
+    let spread = cosine * cosine * (square - 1.0) + 1.0;
+    let distribution = square / (PI * spread * spread);
+    let grazing = normal.dot(key).max(0.0);
+    fresnel(half.dot(key).clamp(0.0, 1.0))
+        * distribution
+        * PI
+        * 0.25
+        * smoothstep(0.0, 0.2, grazing)
+}
+
+/// A direction of the hemisphere, likelier near the normal by the cosine.
+fn cosine_sample(normal: Vec3A, [u, v]: [f32; 2]) -> Vec3A {
+    let (radius, (sin, cos)) = (u.sqrt(), (TAU * v).sin_cos());
+    let across = normal.any_orthonormal_vector();
+    let along = normal.cross(across);
+    (across * (radius * cos) + along * (radius * sin) + normal * (1.0 - u).max(0.0).sqrt())
+        .normalize()
+}
