@@ -378,22 +378,30 @@ impl CanalMember {
         })
     }
 
-    /// The circle with its band of normals; also at a finite vertex, where the radius is zero and the normals are
-    /// their limit for increasing t; `None` where the circle is a line or a point at infinity.
+    /// The circle with its band of normals; `None` where it is a line or a point.
     pub(crate) fn ring(&self) -> Option<Ring> {
-        let (x, tangent, weight) = (self.value.weighted, self.tangent, self.value.weight);
+        let weight = self.value.weight;
+        if weight == 0.0 {
+            None
+        } else {
+            self.ring_with_sign(weight.signum())
+        }
+    }
+
+    /// [`ring`](Self::ring), also at a finite vertex: there the radius is zero and the normals are their limit from the
+    /// side on which the weight has the given sign.
+    pub(crate) fn ring_with_sign(&self, sign: f64) -> Option<Ring> {
+        let (x, tangent) = (self.value.weighted, self.tangent);
         let curvature = x.o.hypot(tangent.o);
         if curvature == 0.0 || !curvature.is_finite() {
             return None;
         }
         let (a, b) = (x.o / curvature, tangent.o / curvature);
-        let sign = if weight < 0.0 { -1.0 } else { 1.0 };
-        let axis = self.axis.try_normalize()?;
         let centre = (a * x.v + b * tangent.v) / curvature;
         centre.is_finite().then_some(Ring {
             centre,
-            radius: weight.abs() / curvature,
-            axis,
+            radius: self.value.weight.abs() / curvature,
+            axis: self.axis.try_normalize()?,
             normal_along_axis: b,
             normal_outward: sign * a,
         })
