@@ -324,4 +324,14 @@ pub enum Error {
         /// The largest difference found.
         defect: f64,
     },
+    /// A control line that is not parallel to that of the indicatrix.
+    #[error(
+        "line {index} is not parallel to that of the indicatrix: the normals differ by {defect} of their size"
+    )]
+    NotParallel {
+        /// The line.
+        index: usize,
+        /// Difference of the two normals over the largest normal.
+        defect: f64,
+    },
 }

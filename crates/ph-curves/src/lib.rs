@@ -2,6 +2,7 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod arc_length;
+mod cam;
 mod class3;
 mod complex;
 mod constant_width;
@@ -10,6 +11,7 @@ mod dual;
 mod error;
 mod interpolator;
 mod line;
+mod minkowski;
 mod ph_arc;
 mod ph_spline;
 mod polynomial_ph;
@@ -21,6 +23,7 @@ mod spatial;
 mod t_cubic;
 
 pub use arc_length::ArcLength;
+pub use cam::{Antisymmetric, Cam, HarmonicLift, Lift};
 pub use class3::{G1Ends, LineElement};
 pub use constant_width::{
     EvolutePolygon, SupportJet, antipodal_arc, hermite_arc, interpolate_constant_width,
@@ -31,6 +34,10 @@ pub use error::Error;
 pub use glam;
 pub use interpolator::{FeedInterpolator, FeedPoint, FeedRate};
 pub use line::Line;
+pub use minkowski::{
+    Bumped, ConstantMinkowskiWidth, DualIndicatrix, Ellipse, Indicatrix, IsoperimetricArc,
+    MinkowskiFrame, MinkowskiPlane, Support, constant_width_arcs,
+};
 pub use ph_arc::{Contact, PhArc, TQuartic};
 pub use ph_spline::{PhSpline, SplineEnds};
 pub use polynomial_ph::PolynomialPh;

@@ -226,7 +226,8 @@ impl<const N: usize> PhArc<N> {
 /// Halvings after which a polynomial that is positive at the ends of its parts, but not certified, counts as touching zero.
 const CERTIFICATE_DEPTH: u32 = 48;
 
-fn keeps_positive(coefficients: &[f64], depth: u32) -> bool {
+/// Whether a polynomial is positive on `[0, 1]`, by the signs of its Bernstein coefficients on parts.
+pub(crate) fn keeps_positive(coefficients: &[f64], depth: u32) -> bool {
     let ends_positive =
         |ends: &[f64]| matches!(ends, [first, .., last] if *first > 0.0 && *last > 0.0);
     if !ends_positive(coefficients) || depth > CERTIFICATE_DEPTH {
