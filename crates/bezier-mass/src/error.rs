@@ -73,4 +73,34 @@ pub enum Error {
         /// The discriminant `w1^2 - w0 w2`.
         discriminant: f64,
     },
+    /// The knots do not increase.
+    #[error("knot {index} is {knot}, below the one before it, {before}")]
+    KnotsDecrease {
+        /// Index of the smaller knot.
+        index: usize,
+        /// The knot before it.
+        before: f64,
+        /// The knot.
+        knot: f64,
+    },
+    /// A knot is repeated so often that the spline falls apart there, or has no first or last span.
+    #[error("the knot {knot} occurs {multiplicity} times, too often for degree {degree}")]
+    KnotMultiplicity {
+        /// The knot.
+        knot: f64,
+        /// How often it occurs.
+        multiplicity: usize,
+        /// The degree of the spline.
+        degree: usize,
+    },
+    /// A knot to insert lies outside the domain of the spline.
+    #[error("{t} is outside the domain [{start}, {end}] of the spline")]
+    OutsideDomain {
+        /// The parameter that was given.
+        t: f64,
+        /// Start of the domain.
+        start: f64,
+        /// End of the domain.
+        end: f64,
+    },
 }

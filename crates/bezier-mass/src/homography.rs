@@ -120,7 +120,9 @@ impl Homography {
         let (start, end) = (a.abs().max(c.abs()), b.abs().max(d.abs()));
         let (ad, bc) = ((a / start) * (d / end), (b / end) * (c / start));
         let determinant = ad - bc;
-        if !(determinant.abs() > SINGULAR_DETERMINANT * (ad.abs() + bc.abs())) {
+        // A pair 0 : 0 makes it NaN.
+        if determinant.is_nan() || determinant.abs() <= SINGULAR_DETERMINANT * (ad.abs() + bc.abs())
+        {
             return Err(Error::SingularHomography { determinant });
         }
         Ok(Self {

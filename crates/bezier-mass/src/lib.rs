@@ -2,11 +2,14 @@
 
 mod arc;
 mod biquadratic;
+mod bspline_curve;
+mod bspline_surface;
 mod conic;
 mod curve;
 mod error;
 mod homography;
 mod jet;
+mod knots;
 mod mass_point;
 mod patch;
 mod quadratic;
@@ -16,11 +19,14 @@ pub mod bernstein;
 
 pub use arc::Half;
 pub use biquadratic::Biquadratic;
+pub use bspline_curve::{BSplineCurve, BezierPiece};
+pub use bspline_surface::{BSplineSurface, PatchPiece};
 pub use conic::{CentralConic, Circle, Conic, Degenerate, Line, Parabola};
 pub use curve::BezierCurve;
 pub use error::Error;
 pub use homography::{Homography, Parameter};
 pub use jet::{CurveJet, Partials, PatchJet};
+pub use knots::Knots;
 pub use mass_point::{MassPoint, MassPointKind};
 pub use patch::BezierPatch;
 pub use quadratic::Quadratic;
