@@ -1,7 +1,9 @@
 //! Planar curves whose offsets are exact.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+mod approximate;
 mod arc_length;
+mod arc_spline;
 mod cam;
 mod class3;
 mod complex;
@@ -14,15 +16,19 @@ mod line;
 mod minkowski;
 mod ph_arc;
 mod ph_spline;
+mod plane_curve;
 mod polynomial_ph;
 mod pottmann;
 mod quadrature;
 mod quintic;
 mod rosette;
+mod sampled;
 mod spatial;
 mod t_cubic;
 
+pub use approximate::{Approximated, Approximation, Breakpoints, approximate, breakpoints};
 pub use arc_length::ArcLength;
+pub use arc_spline::{ArcSpline, Joint, Piece, Segment};
 pub use cam::{Antisymmetric, Cam, HarmonicLift, Lift};
 pub use class3::{G1Ends, LineElement};
 pub use constant_width::{
@@ -40,6 +46,7 @@ pub use minkowski::{
 };
 pub use ph_arc::{Contact, PhArc, TQuartic};
 pub use ph_spline::{PhSpline, SplineEnds};
+pub use plane_curve::{Break, BreakKind, CubicPath, PlaneCurve, Side};
 pub use polynomial_ph::PolynomialPh;
 pub use pottmann::{PottmannForm, TQuarticCoefficients};
 pub use quintic::Hermite;

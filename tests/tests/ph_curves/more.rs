@@ -18,9 +18,6 @@ pub(crate) const PENDING: &[&str] = &[
     "rmf_numeric",
     "rrmf",
     "spatial_ph_hermite",
-    "curve_breakpoints",
-    "g2_approximate",
-    "spiral_error",
 ];
 
 /// Answers the case if its kind is one of this file.

@@ -1,10 +1,11 @@
 //! Dual curves, class-3 arcs, Tschirnhausen cubics and the approximation by them (items a, b, c, d).
 
-use integration_tests::Case;
+use integration_tests::{Case, Tolerance};
 use ph_curves::glam::{DVec2, DVec3};
 use ph_curves::{
-    CurvatureElement, DualCurve, Error, EvoluteTriangle, G1Ends, G2Pair, Line, LineElement, TCubic,
-    TQuartic, TQuarticCoefficients, similarity_centre,
+    Approximation, CubicPath, CurvatureElement, DualCurve, Error, EvoluteTriangle, G1Ends, G2Pair,
+    Line, LineElement, Piece, PlaneCurve, TCubic, TQuartic, TQuarticCoefficients, approximate,
+    breakpoints, similarity_centre,
 };
 use serde_json::{Value, json};
 
@@ -25,6 +26,9 @@ pub(crate) fn answer(case: &Case<'_>) -> bool {
         "admissible" => admissible(case),
         "g2_two_tquartics" => g2_two_tquartics(case),
         "theorem4" => theorem4(case),
+        "spiral_error" => spiral_error(case),
+        "curve_breakpoints" => curve_breakpoints(case),
+        "g2_approximate" => g2_approximate(case),
         "class3_g1" => class3_g1(case),
         "class3_alpha_interval" => class3_alpha_interval(case),
         "class3_offset" => class3_offset(case),
@@ -318,5 +322,141 @@ fn theorem4(case: &Case<'_>) -> Result<(), Error> {
         [case.number("rho0"), case.number("rho1")],
     )?;
     case.compare("s", xy(centre));
+    Ok(())
+}
+
+/// The file's logarithmic spiral: one pair on each of `pieces` equal steps, the largest support difference.
+fn spiral_error(case: &Case<'_>) -> Result<(), Error> {
+    /// Samples of a piece at which the error is measured.
+    const SAMPLES: usize = 60;
+    let (b, range) = (case.number("b"), case.numbers("theta"));
+    let spiral = |theta: f64| {
+        let r = (b * theta).exp();
+        let normal = DVec2::new(1.0, -b)
+            .rotate(DVec2::from_angle(theta))
+            .normalize();
+        (
+            DVec2::from_angle(theta) * r,
+            normal,
+            r * (1.0 + b * b).sqrt(),
+        )
+    };
+    let element = |theta: f64| {
+        let (point, normal, radius) = spiral(theta);
+        CurvatureElement::new(point, normal, radius)
+    };
+    let wanted = case.expected()["rows"]
+        .as_array()
+        .expect("rows of beta, pieces, error");
+    let mut rows = Vec::new();
+    for row in wanted {
+        let (beta, pieces) = (
+            row[0].as_f64().expect("beta"),
+            row[1].as_u64().expect("pieces"),
+        );
+        let step = (range[1] - range[0]) / pieces as f64;
+        let mut error = 0.0_f64;
+        for k in 0..pieces {
+            let start = range[0] + step * k as f64;
+            let pair = G2Pair::new(&element(start)?, &element(start + step)?, beta)?;
+            for sample in 1..SAMPLES {
+                let (point, normal, _) = spiral(start + step * sample as f64 / SAMPLES as f64);
+                let support = pair
+                    .arcs
+                    .iter()
+                    .find_map(|arc| arc.parameter_of_normal(normal).map(|t| arc.support(t)))
+                    .expect("a normal between the ends");
+                error = error.max((support - normal.dot(point)).abs());
+            }
+        }
+        rows.push(error);
+    }
+    // The tolerance of this kind is relative.
+    let Tolerance::Componentwise(relative) = case.tolerance() else {
+        unreachable!("set by the reader")
+    };
+    for (row, error) in wanted.iter().zip(rows) {
+        let want = row[2].as_f64().expect("an error");
+        case.require(
+            (error - want).abs() <= relative * want,
+            &format!("row {row}: {error}"),
+        );
+    }
+    case.seen("rows");
+    Ok(())
+}
+
+fn bspline(case: &Case<'_>) -> Result<CubicPath, Error> {
+    let control: Vec<DVec2> = case
+        .rows("cubic_uniform_bspline")
+        .iter()
+        .map(|p| DVec2::new(p[0], p[1]))
+        .collect();
+    CubicPath::uniform_bspline(&control, false)
+}
+
+fn curve_breakpoints(case: &Case<'_>) -> Result<(), Error> {
+    let found = breakpoints(&bspline(case)?)?;
+    case.compare("inflections", found.inflections);
+    case.compare("vertices", found.vertices);
+    Ok(())
+}
+
+fn g2_approximate(case: &Case<'_>) -> Result<(), Error> {
+    /// Samples of a source interval at which the support difference is measured.
+    const SAMPLES: usize = 50;
+    let curve = bspline(case)?;
+    let result = approximate(&curve, &Approximation::within(case.number("tolerance")))?;
+    let arcs: Vec<(TQuartic, [f64; 2])> = result
+        .spline
+        .pieces()
+        .iter()
+        .zip(&result.sources)
+        .filter_map(|(piece, source)| match piece {
+            Piece::Arc(arc) => Some((*arc, *source)),
+            Piece::Segment(_) => None,
+        })
+        .collect();
+    let mut error = 0.0_f64;
+    for (arc, source) in &arcs {
+        for sample in 1..SAMPLES {
+            let parameter = source[0] + (source[1] - source[0]) * sample as f64 / SAMPLES as f64;
+            let span = (parameter as usize).min(curve.spans() - 1);
+            let [point, first, _] = curve.jet(span, parameter - span as f64);
+            let normal = -first.normalize().perp();
+            // The arcs of a pair share their source; each answers for its own normals.
+            if let Some(t) = arc.parameter_of_normal(normal) {
+                error = error.max((arc.support(t) - normal.dot(point)).abs());
+            }
+        }
+    }
+    let most = case.expected()["max_support_error_at_most"]
+        .as_f64()
+        .expect("a bound");
+    case.require(
+        error <= most,
+        &format!("support error {error} above {most}"),
+    );
+    case.require(
+        error > 0.0 && result.error <= most,
+        "the reported error is above the bound",
+    );
+    let count = case.expected()["arcs_at_most"].as_u64().expect("a bound") as usize;
+    case.require(
+        result.spline.pieces().len() <= count,
+        &format!("{} arcs", result.spline.pieces().len()),
+    );
+    let regular = arcs.iter().all(|(arc, _)| {
+        let [r0, r1] = arc.end_radii();
+        r0 * r1 > 0.0
+    });
+    case.compare("all_regular", regular);
+    for key in [
+        "max_support_error_at_most",
+        "arcs_at_most",
+        "reference_arcs",
+    ] {
+        case.seen(key);
+    }
     Ok(())
 }

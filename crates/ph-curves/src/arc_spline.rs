@@ -1,0 +1,274 @@
+//! Splines of class-3 arcs and straight segments, whose offsets are exact.
+
+use bezier_mass::BezierCurve;
+use glam::{DVec2, DVec3};
+
+use crate::dual::rational_curve;
+use crate::{Error, TQuartic};
+
+/// One piece of an [`ArcSpline`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Piece {
+    /// A straight segment; its normal is the right-hand one of its direction of travel.
+    Segment(Segment),
+    /// An arc of class 3. Its radius is zero for a corner, a point with a fan of normals.
+    Arc(TQuartic),
+}
+
+/// A straight segment of an [`ArcSpline`] with its unit normal, which stays when it shrinks or is offset.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Segment {
+    pub(crate) start: DVec2,
+    pub(crate) end: DVec2,
+    pub(crate) normal: DVec2,
+}
+
+impl Segment {
+    /// The segment between two different points.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`]; [`Error::ZeroDirection`] for equal points.
+    pub fn new(start: DVec2, end: DVec2) -> Result<Self, Error> {
+        if !(start.is_finite() && end.is_finite()) {
+            return Err(Error::NonFinite {
+                what: "an end of a segment",
+            });
+        }
+        let direction = (end - start)
+            .try_normalize()
+            .ok_or(Error::ZeroDirection { what: "a segment" })?;
+        Ok(Self {
+            start,
+            end,
+            normal: -direction.perp(),
+        })
+    }
+
+    /// Start point.
+    #[must_use]
+    pub const fn start(&self) -> DVec2 {
+        self.start
+    }
+
+    /// End point.
+    #[must_use]
+    pub const fn end(&self) -> DVec2 {
+        self.end
+    }
+
+    /// Unit normal to the right of travel.
+    #[must_use]
+    pub const fn normal(&self) -> DVec2 {
+        self.normal
+    }
+}
+
+impl Piece {
+    /// The point at `t` in `[0, 1]`.
+    #[must_use]
+    pub fn point(&self, t: f64) -> DVec2 {
+        match self {
+            Self::Segment(segment) => segment.start.lerp(segment.end, t),
+            Self::Arc(arc) => arc.point(t),
+        }
+    }
+
+    /// The unit normal at `t`.
+    #[must_use]
+    pub fn normal(&self, t: f64) -> DVec2 {
+        match self {
+            Self::Segment(segment) => segment.normal,
+            Self::Arc(arc) => arc.normal(t),
+        }
+    }
+
+    /// Signed radius of curvature, infinite on a segment.
+    #[must_use]
+    pub fn radius(&self, t: f64) -> f64 {
+        match self {
+            Self::Segment(_) => f64::INFINITY,
+            Self::Arc(arc) => arc.radius(t),
+        }
+    }
+
+    /// The parallel piece at signed distance `distance` along the normals; exact.
+    #[must_use]
+    #[inline]
+    pub fn offset(&self, distance: f64) -> Self {
+        match self {
+            Self::Segment(segment) => {
+                let shift = segment.normal * distance;
+                Self::Segment(Segment {
+                    start: segment.start + shift,
+                    end: segment.end + shift,
+                    ..*segment
+                })
+            }
+            Self::Arc(arc) => Self::Arc(arc.offset(distance)),
+        }
+    }
+
+    /// Arc length; parts on both sides of a cusp count positively.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        match self {
+            Self::Segment(segment) => (segment.end - segment.start).length(),
+            Self::Arc(arc) => arc.length(),
+        }
+    }
+
+    /// The part between two parameters `0 <= from < to <= 1`.
+    ///
+    /// # Errors
+    /// [`Error::OutsideDomain`] otherwise.
+    pub fn part(&self, from: f64, to: f64) -> Result<Self, Error> {
+        match self {
+            Self::Arc(arc) => arc.part(from, to).map(Self::Arc),
+            Self::Segment(segment) => {
+                if !(from >= 0.0 && from < to && to <= 1.0) {
+                    return Err(Error::OutsideDomain {
+                        value: from,
+                        start: 0.0,
+                        end: to.min(1.0),
+                    });
+                }
+                let (start, end) = (self.point(from), self.point(to));
+                Ok(Self::Segment(Segment {
+                    start,
+                    end,
+                    ..*segment
+                }))
+            }
+        }
+    }
+
+    /// Homogeneous Bernstein coefficients `(x0, x1, x2)` of the point form, a rational quartic with positive weights
+    /// (a segment has all its weights 1).
+    #[must_use]
+    pub fn quartic(&self) -> [DVec3; 5] {
+        match self {
+            Self::Arc(arc) => arc.quartic(),
+            Self::Segment(segment) => std::array::from_fn(|k| {
+                let point = segment.start.lerp(segment.end, k as f64 / 4.0);
+                DVec3::new(1.0, point.x, point.y)
+            }),
+        }
+    }
+
+    /// The piece as a rational Bézier curve: degree 4, or 1 for a segment.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] if the coefficients overflow.
+    pub fn to_bezier(&self) -> Result<BezierCurve<DVec2>, Error> {
+        match self {
+            Self::Arc(arc) => rational_curve(&arc.quartic()),
+            Self::Segment(segment) => Ok(BezierCurve::polynomial(&[segment.start, segment.end])?),
+        }
+    }
+}
+
+/// How two consecutive pieces of an [`ArcSpline`] meet, in point, normal and curvature.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Joint {
+    /// Common point, normal and curvature.
+    G2,
+    /// Common point and normal.
+    G1,
+}
+
+/// A chain of class-3 arcs and straight segments with continuous normal: a front, not only a curve.
+///
+/// Corners are arcs of radius zero that turn the normal, so that every offset is again such a chain: a corner becomes
+/// a circular arc on its outer side. The offset at distance d moves every point by d along its normal, to the
+/// *right* of travel for positive d. It is exact, and it may have cusps and loops; see [`ArcSpline::trim`].
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ArcSpline {
+    pub(crate) pieces: Vec<Piece>,
+    pub(crate) joints: Vec<Joint>,
+    pub(crate) closed: bool,
+}
+
+impl ArcSpline {
+    /// The pieces in order of travel.
+    #[must_use]
+    pub fn pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+
+    /// The joints: joint `i` lies between pieces `i` and `i + 1`; a closed spline has one more, from its end to
+    /// its start.
+    #[must_use]
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// Whether the end is the start.
+    #[must_use]
+    pub const fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    /// The parallel spline at signed distance `distance`, to the right of travel if positive. Exact: normals stay,
+    /// supports grow by `distance`; joints keep their continuity.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] for a distance that is not finite.
+    pub fn offset(&self, distance: f64) -> Result<Self, Error> {
+        if !distance.is_finite() {
+            return Err(Error::NonFinite {
+                what: "an offset distance",
+            });
+        }
+        let pieces = self
+            .pieces
+            .iter()
+            .map(|piece| piece.offset(distance))
+            .collect();
+        Ok(Self {
+            pieces,
+            joints: self.joints.clone(),
+            closed: self.closed,
+        })
+    }
+
+    /// Total arc length of the pieces.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.pieces.iter().map(Piece::length).sum()
+    }
+
+    /// Largest relative jump of the radius of curvature over the joints of kind [`Joint::G2`], as
+    /// `|1/R - 1/R'|` over the larger curvature.
+    #[must_use]
+    pub fn g2_jump(&self) -> f64 {
+        self.joints
+            .iter()
+            .enumerate()
+            .filter(|(_, joint)| **joint == Joint::G2)
+            .filter_map(|(i, _)| {
+                let (before, after) = (
+                    self.pieces.get(i)?,
+                    self.pieces.get((i + 1) % self.pieces.len())?,
+                );
+                let (a, b) = (1.0 / before.radius(1.0), 1.0 / after.radius(0.0));
+                Some(if a == b {
+                    0.0
+                } else {
+                    (a - b).abs() / a.abs().max(b.abs())
+                })
+            })
+            .fold(0.0, f64::max)
+    }
+
+    /// Every piece as a rational Bézier curve.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] if coefficients overflow.
+    pub fn to_beziers(&self) -> Result<Vec<BezierCurve<DVec2>>, Error> {
+        self.pieces.iter().map(Piece::to_bezier).collect()
+    }
+}
