@@ -132,11 +132,7 @@ impl PatchJet<DVec3> {
     /// the weight vanishes too, where it is the normal of the asymptotic plane (of either orientation).
     #[must_use]
     pub fn normal(&self) -> Option<DVec3> {
-        let Self { value, du, dv, .. } = *self;
-        self.oriented(
-            plane_normal(value, du, dv),
-            NORMAL_ROUNDING * plane_size(value, du, dv),
-        )
+        unit_normal([self.value, self.du, self.dv])
     }
 
     /// The normal, or its limit on the way from the middle of the parameter square to `(u, v)`.
@@ -155,26 +151,28 @@ impl PatchJet<DVec3> {
             let sizes =
                 [(duu, dv), (du, duv), (duv, dv), (du, dvv)].map(|(a, b)| plane_size(h, a, b));
             let (a, b) = (0.5 - u, 0.5 - v);
-            self.oriented(
-                by_u * a + by_v * b,
-                NORMAL_ROUNDING * sizes.iter().sum::<f64>(),
-            )
+            oriented(by_u * a + by_v * b, h.weight, sizes.iter().sum())
         })
     }
+}
 
-    /// A multiple of the normal made a unit vector, on the side of `P_u x P_v`.
-    fn oriented(&self, normal: DVec3, rounding: f64) -> Option<DVec3> {
-        let normal = if self.value.weight < 0.0 {
-            -normal
-        } else {
-            normal
-        };
-        if normal.length() > rounding {
-            normal.try_normalize()
-        } else {
-            None
-        }
-    }
+/// The unit normal of the plane through `[h, h_u, h_v]` on the side of `P_u x P_v`.
+#[inline]
+pub(crate) fn unit_normal([value, du, dv]: [MassPoint<DVec3>; 3]) -> Option<DVec3> {
+    oriented(
+        plane_normal(value, du, dv),
+        value.weight,
+        plane_size(value, du, dv),
+    )
+}
+
+/// A multiple of the normal made a unit vector on the side of `P_u x P_v`; `None` if it is rounding error of terms of
+/// the size given.
+#[inline]
+fn oriented(normal: DVec3, weight: f64, size: f64) -> Option<DVec3> {
+    let length = normal.length();
+    let reached = length > NORMAL_ROUNDING * size && length.is_finite();
+    reached.then(|| normal * (if weight < 0.0 { -1.0 } else { 1.0 } / length))
 }
 
 /// The normal of the plane through three mass points: the Euclidean part of their exterior product.
@@ -186,6 +184,7 @@ fn plane_normal(a: MassPoint<DVec3>, b: MassPoint<DVec3>, c: MassPoint<DVec3>) -
 }
 
 /// The size of the terms of [`plane_normal`].
+#[inline]
 fn plane_size(a: MassPoint<DVec3>, b: MassPoint<DVec3>, c: MassPoint<DVec3>) -> f64 {
     let [x, y, z] = [a, b, c].map(|h| h.weighted.magnitude());
     a.weight.abs() * y * z + b.weight.abs() * z * x + c.weight.abs() * x * y
