@@ -1,11 +1,18 @@
 //! Shortest and straightest paths on triangle meshes and smooth surfaces, exact where asked and certified always
 
 mod error;
+mod finder;
+mod funnel;
 mod mesh;
+mod path;
+mod pivot;
+mod search;
 pub mod shapes;
+mod strip;
 mod surface_point;
 
 pub use error::Error;
+pub use finder::{PathFinder, Start};
 pub use glam;
 #[cfg(feature = "triangulate")]
 pub use mesh::triangulate_domain;
@@ -13,4 +20,7 @@ pub use mesh::{
     FLAT_ANGLE, Mesh, NONE, RepairReport, Repaired, Star, TriangleSoup, VertexKind, face_of, next,
     previous,
 };
+pub use path::{CERTIFIED_ANGLE, CERTIFIED_STRAIGHTNESS, Certificate, GeodesicPath, Pivot};
+pub use pivot::Update;
+pub use strip::Side;
 pub use surface_point::{OUTSIDE, SNAP, SurfacePoint};

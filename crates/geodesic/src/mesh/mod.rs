@@ -10,6 +10,7 @@ mod star;
 mod terrain;
 
 pub use repair::{RepairReport, Repaired, TriangleSoup};
+pub(crate) use star::angle_between;
 pub use star::{FLAT_ANGLE, Star, VertexKind};
 #[cfg(feature = "triangulate")]
 pub use terrain::triangulate_domain;

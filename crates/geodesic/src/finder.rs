@@ -1,0 +1,160 @@
+//! Queries for locally shortest paths.
+
+use crate::mesh::Mesh;
+use crate::path::GeodesicPath;
+use crate::pivot::Shortener;
+use crate::search::Search;
+use crate::strip::Strip;
+use crate::{Error, SurfacePoint};
+
+/// Where shortening starts. The start chooses the class of paths, relative to the vertices, in which the shortest one is
+/// found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum Start {
+    /// The shortest path over vertices, along edges and straight across edges.
+    #[default]
+    Vertices,
+    /// The shortest path along edges.
+    Edges,
+    /// The shortest path over faces, from centroid to centroid.
+    Faces,
+}
+
+/// Finds locally shortest paths on a mesh, query after query, without allocating once its buffers have grown.
+///
+/// ```
+/// use geodesic::{PathFinder, shapes};
+/// let cube = shapes::cube()?;
+/// let mut finder = PathFinder::new(&cube);
+/// let path = finder.shortest(cube.vertex_point(0)?, cube.vertex_point(7)?)?;
+/// assert!((path.length() - 5.0f64.sqrt()).abs() < 1e-14); // across two faces laid flat
+/// assert!(path.certify(&cube)?.is_geodesic());
+/// # Ok::<(), geodesic::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct PathFinder<'m> {
+    mesh: &'m Mesh,
+    start: Start,
+    search: Search,
+    shortener: Shortener,
+    strip: Strip,
+    path: GeodesicPath,
+    visits: Vec<u32>,
+}
+
+impl<'m> PathFinder<'m> {
+    /// A finder on a mesh, with empty buffers.
+    #[must_use]
+    pub fn new(mesh: &'m Mesh) -> Self {
+        Self {
+            mesh,
+            start: Start::default(),
+            search: Search::default(),
+            shortener: Shortener::default(),
+            strip: Strip::default(),
+            path: GeodesicPath::default(),
+            visits: Vec::new(),
+        }
+    }
+
+    /// The same finder with another kind of start.
+    #[must_use]
+    pub fn with_start(mut self, start: Start) -> Self {
+        self.start = start;
+        self
+    }
+
+    /// The mesh.
+    #[must_use]
+    pub fn mesh(&self) -> &'m Mesh {
+        self.mesh
+    }
+
+    /// A locally shortest path between two points anywhere on the mesh.
+    ///
+    /// The path stays in the finder; clone it to keep it beyond the next query.
+    ///
+    /// # Errors
+    ///
+    /// An error about a point that is not on the mesh (see [`Mesh::canonical`]); [`Error::NoPath`] between components;
+    /// [`Error::NotConverged`] if shortening was stopped, which no known mesh brings about.
+    pub fn shortest(&mut self, from: SurfacePoint, to: SurfacePoint) -> Result<&GeodesicPath, Error> {
+        let (from, to) = (self.mesh.canonical(from)?, self.mesh.canonical(to)?);
+        if let Some(face) = self.mesh.faces_of(from).find(|&f| self.mesh.face_contains(f, to)) {
+            self.path.set_segment(self.mesh, face, from, to);
+            return Ok(&self.path);
+        }
+        let strip = &mut self.shortener.strip;
+        match self.start {
+            Start::Vertices => self.search.over_vertices(self.mesh, from, to, true, strip).map(drop)?,
+            Start::Edges => self.search.over_vertices(self.mesh, from, to, false, strip).map(drop)?,
+            Start::Faces => self.search.over_faces(self.mesh, from, to, strip)?,
+        }
+        self.shorten(from, to)
+    }
+
+    /// The locally shortest path that shortening reaches from a caller's sequence of neighbouring faces.
+    ///
+    /// Faces before the last one that contains `from`, after the first one that contains `to`, and between two visits to
+    /// the same face are dropped.
+    ///
+    /// # Errors
+    ///
+    /// As for [`PathFinder::shortest`]; [`Error::BrokenSequence`], [`Error::NoSuchFace`];
+    /// [`Error::SequenceMissesPoint`] if the first or last face does not contain its point.
+    pub fn along(&mut self, faces: &[u32], from: SurfacePoint, to: SurfacePoint) -> Result<&GeodesicPath, Error> {
+        let (from, to) = (self.mesh.canonical(from)?, self.mesh.canonical(to)?);
+        self.enter(faces, from, to)?;
+        self.shorten(from, to)
+    }
+
+    /// The shortest path within a caller's sequence of faces, without any update: taut, but not in general a geodesic.
+    ///
+    /// # Errors
+    ///
+    /// As for [`PathFinder::along`].
+    pub fn taut(&mut self, faces: &[u32], from: SurfacePoint, to: SurfacePoint) -> Result<&GeodesicPath, Error> {
+        let (from, to) = (self.mesh.canonical(from)?, self.mesh.canonical(to)?);
+        self.enter(faces, from, to)?;
+        self.shortener.begin(self.mesh, from, to);
+        self.path.updates.clear();
+        self.path.set(self.mesh, &self.shortener, &mut self.strip);
+        Ok(&self.path)
+    }
+
+    /// Nodes settled by the search of the last query: what its time grows with.
+    #[must_use]
+    pub fn settled(&self) -> usize {
+        self.search.settled
+    }
+
+    fn enter(&mut self, faces: &[u32], from: SurfacePoint, to: SurfacePoint) -> Result<(), Error> {
+        let strip = &mut self.shortener.strip;
+        strip.through_faces(self.mesh, faces)?;
+        for (end, point) in [(faces.first(), from), (faces.last(), to)] {
+            if !end.is_some_and(|&f| self.mesh.face_contains(f, point)) {
+                return Err(Error::SequenceMissesPoint { point });
+            }
+        }
+        self.visits.resize(self.mesh.face_count(), u32::MAX);
+        strip.cut_detours(self.mesh, from, to, &mut self.visits);
+        Ok(())
+    }
+
+    /// Shortens what lies in the strip.
+    fn shorten(&mut self, from: SurfacePoint, to: SurfacePoint) -> Result<&GeodesicPath, Error> {
+        let Self { mesh, shortener, strip, path, .. } = self;
+        shortener.strip.trim(mesh, from, to);
+        shortener.begin(mesh, from, to);
+        path.updates.clear();
+        // A path has a few updates for each vertex on it; a mesh is crossed by about the root of its number of faces.
+        let limit = 20 * mesh.face_count() + 100;
+        if !shortener.shorten(mesh, limit, |_, update| path.updates.push(update)) {
+            return Err(Error::NotConverged { updates: shortener.updates });
+        }
+        path.set(mesh, shortener, strip);
+        Ok(path)
+    }
+}
