@@ -80,16 +80,30 @@ impl<'m> PathFinder<'m> {
     ///
     /// An error about a point that is not on the mesh (see [`Mesh::canonical`]); [`Error::NoPath`] between components;
     /// [`Error::NotConverged`] if shortening was stopped, which no known mesh brings about.
-    pub fn shortest(&mut self, from: SurfacePoint, to: SurfacePoint) -> Result<&GeodesicPath, Error> {
+    pub fn shortest(
+        &mut self,
+        from: SurfacePoint,
+        to: SurfacePoint,
+    ) -> Result<&GeodesicPath, Error> {
         let (from, to) = (self.mesh.canonical(from)?, self.mesh.canonical(to)?);
-        if let Some(face) = self.mesh.faces_of(from).find(|&f| self.mesh.face_contains(f, to)) {
+        if let Some(face) = self
+            .mesh
+            .faces_of(from)
+            .find(|&f| self.mesh.face_contains(f, to))
+        {
             self.path.set_segment(self.mesh, face, from, to);
             return Ok(&self.path);
         }
         let strip = &mut self.shortener.strip;
         match self.start {
-            Start::Vertices => self.search.over_vertices(self.mesh, from, to, true, strip).map(drop)?,
-            Start::Edges => self.search.over_vertices(self.mesh, from, to, false, strip).map(drop)?,
+            Start::Vertices => self
+                .search
+                .over_vertices(self.mesh, from, to, true, strip)
+                .map(drop)?,
+            Start::Edges => self
+                .search
+                .over_vertices(self.mesh, from, to, false, strip)
+                .map(drop)?,
             Start::Faces => self.search.over_faces(self.mesh, from, to, strip)?,
         }
         self.shorten(from, to)
@@ -104,7 +118,12 @@ impl<'m> PathFinder<'m> {
     ///
     /// As for [`PathFinder::shortest`]; [`Error::BrokenSequence`], [`Error::NoSuchFace`];
     /// [`Error::SequenceMissesPoint`] if the first or last face does not contain its point.
-    pub fn along(&mut self, faces: &[u32], from: SurfacePoint, to: SurfacePoint) -> Result<&GeodesicPath, Error> {
+    pub fn along(
+        &mut self,
+        faces: &[u32],
+        from: SurfacePoint,
+        to: SurfacePoint,
+    ) -> Result<&GeodesicPath, Error> {
         let (from, to) = (self.mesh.canonical(from)?, self.mesh.canonical(to)?);
         self.enter(faces, from, to)?;
         self.shorten(from, to)
@@ -115,7 +134,12 @@ impl<'m> PathFinder<'m> {
     /// # Errors
     ///
     /// As for [`PathFinder::along`].
-    pub fn taut(&mut self, faces: &[u32], from: SurfacePoint, to: SurfacePoint) -> Result<&GeodesicPath, Error> {
+    pub fn taut(
+        &mut self,
+        faces: &[u32],
+        from: SurfacePoint,
+        to: SurfacePoint,
+    ) -> Result<&GeodesicPath, Error> {
         let (from, to) = (self.mesh.canonical(from)?, self.mesh.canonical(to)?);
         self.enter(faces, from, to)?;
         self.shortener.begin(self.mesh, from, to);
@@ -145,14 +169,22 @@ impl<'m> PathFinder<'m> {
 
     /// Shortens what lies in the strip.
     fn shorten(&mut self, from: SurfacePoint, to: SurfacePoint) -> Result<&GeodesicPath, Error> {
-        let Self { mesh, shortener, strip, path, .. } = self;
+        let Self {
+            mesh,
+            shortener,
+            strip,
+            path,
+            ..
+        } = self;
         shortener.strip.trim(mesh, from, to);
         shortener.begin(mesh, from, to);
         path.updates.clear();
         // A path has a few updates for each vertex on it; a mesh is crossed by about the root of its number of faces.
         let limit = 20 * mesh.face_count() + 100;
         if !shortener.shorten(mesh, limit, |_, update| path.updates.push(update)) {
-            return Err(Error::NotConverged { updates: shortener.updates });
+            return Err(Error::NotConverged {
+                updates: shortener.updates,
+            });
         }
         path.set(mesh, shortener, strip);
         Ok(path)

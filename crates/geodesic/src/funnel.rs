@@ -77,7 +77,12 @@ impl Funnel {
         self.insert(&mut apex, Side::Left, u32::MAX, strip.to, strip);
         let rest = self.left.live();
         for &(k, at) in &rest[..rest.len().saturating_sub(1)] {
-            self.bends.push(Corner { side: Side::Left, first: k, last: strip.copy_until(k, Side::Left), at });
+            self.bends.push(Corner {
+                side: Side::Left,
+                first: k,
+                last: strip.copy_until(k, Side::Left),
+                at,
+            });
         }
         self.add_touched(strip);
     }
@@ -104,8 +109,17 @@ impl Funnel {
                 if turn * orient(*apex, first, p) > 0.0 {
                     break;
                 }
-                let side = if side == Side::Left { Side::Right } else { Side::Left };
-                self.bends.push(Corner { side, first: k, last: strip.copy_until(k, side), at: first });
+                let side = if side == Side::Left {
+                    Side::Right
+                } else {
+                    Side::Left
+                };
+                self.bends.push(Corner {
+                    side,
+                    first: k,
+                    last: strip.copy_until(k, side),
+                    at: first,
+                });
                 *apex = first;
                 far.begin += 1;
             }
@@ -119,7 +133,8 @@ impl Funnel {
         let (mut from, mut begin) = (strip.from, 0);
         for i in 0..=self.bends.len() {
             let bend = self.bends.get(i).copied();
-            let (to, end) = bend.map_or((strip.to, strip.portals.len() as u32), |b| (b.at, b.first));
+            let (to, end) =
+                bend.map_or((strip.to, strip.portals.len() as u32), |b| (b.at, b.first));
             self.add_touched_between(strip, from, to, begin..end);
             if let Some(bend) = bend {
                 self.corners.push(bend);
@@ -128,7 +143,13 @@ impl Funnel {
         }
     }
 
-    fn add_touched_between(&mut self, strip: &Strip, from: DVec2, to: DVec2, portals: std::ops::Range<u32>) {
+    fn add_touched_between(
+        &mut self,
+        strip: &Strip,
+        from: DVec2,
+        to: DVec2,
+        portals: std::ops::Range<u32>,
+    ) {
         let (begin, settled) = (portals.start, self.corners.len());
         let length = from.distance(to);
         let along = (to - from) / length;
@@ -146,10 +167,16 @@ impl Funnel {
                 let behind = length - ahead;
                 // Bend at the vertex if the path went through it, for small angles.
                 if ahead > 0.0 && behind > 0.0 && aside * length <= TOUCH_ANGLE * ahead * behind {
-                    self.corners.push(Corner { side, first: since, last: strip.copy_until(k, side), at });
+                    self.corners.push(Corner {
+                        side,
+                        first: since,
+                        last: strip.copy_until(k, side),
+                        at,
+                    });
                 }
             }
         }
-        self.corners[settled..].sort_unstable_by(|a, b| along.dot(a.at).total_cmp(&along.dot(b.at)));
+        self.corners[settled..]
+            .sort_unstable_by(|a, b| along.dot(a.at).total_cmp(&along.dot(b.at)));
     }
 }

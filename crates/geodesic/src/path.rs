@@ -110,7 +110,13 @@ impl GeodesicPath {
     }
 
     /// The single segment between two points of a face.
-    pub(crate) fn set_segment(&mut self, mesh: &Mesh, face: u32, from: SurfacePoint, to: SurfacePoint) {
+    pub(crate) fn set_segment(
+        &mut self,
+        mesh: &Mesh,
+        face: u32,
+        from: SurfacePoint,
+        to: SurfacePoint,
+    ) {
         self.clear();
         self.push(mesh, from);
         self.push(mesh, to);
@@ -130,10 +136,17 @@ impl GeodesicPath {
                 && i > 0
                 && i + 1 < shortener.nodes.len()
             {
-                self.pivots.push(Pivot { vertex, index: self.points.len(), left: node.left, right: node.right });
+                self.pivots.push(Pivot {
+                    vertex,
+                    index: self.points.len(),
+                    left: node.left,
+                    right: node.right,
+                });
             }
             self.push(mesh, node.point);
-            let Some(onward) = shortener.nodes.get(i + 1) else { break };
+            let Some(onward) = shortener.nodes.get(i + 1) else {
+                break;
+            };
             self.faces.push(node.leg.first_face);
             let portals = shortener.portals(node.leg);
             strip.restart(node.leg.first_face);
@@ -143,9 +156,20 @@ impl GeodesicPath {
             for (k, &portal) in portals.iter().enumerate() {
                 let right = direction.perp_dot(strip.from - strip.right[k]);
                 let left = direction.perp_dot(strip.left[k] - strip.from);
-                let t = if right + left > 0.0 { (right / (right + left)).clamp(0.0, 1.0) } else { 0.5 };
-                self.push(mesh, SurfacePoint::Edge { halfedge: portal, t });
-                self.faces.push(mesh.twin(portal).map_or(face_of(portal), face_of));
+                let t = if right + left > 0.0 {
+                    (right / (right + left)).clamp(0.0, 1.0)
+                } else {
+                    0.5
+                };
+                self.push(
+                    mesh,
+                    SurfacePoint::Edge {
+                        halfedge: portal,
+                        t,
+                    },
+                );
+                self.faces
+                    .push(mesh.twin(portal).map_or(face_of(portal), face_of));
             }
         }
     }
@@ -168,7 +192,8 @@ impl Certificate {
     /// [`CERTIFIED_ANGLE`].
     #[must_use]
     pub fn is_geodesic(&self) -> bool {
-        self.straightness <= CERTIFIED_STRAIGHTNESS && self.smallest_side_angle >= PI - CERTIFIED_ANGLE
+        self.straightness <= CERTIFIED_STRAIGHTNESS
+            && self.smallest_side_angle >= PI - CERTIFIED_ANGLE
     }
 }
 
@@ -176,8 +201,16 @@ impl Certificate {
 ///
 /// The faces are unfolded by turning each onto the last about their common edge, a complex rotation each, unlike the
 /// shortening, which places corners.
-pub(crate) fn certify(mesh: &Mesh, points: &[SurfacePoint], faces: &[u32]) -> Result<Certificate, Error> {
-    let mut certificate = Certificate { straightness: 0.0, smallest_side_angle: f64::INFINITY, length: 0.0 };
+pub(crate) fn certify(
+    mesh: &Mesh,
+    points: &[SurfacePoint],
+    faces: &[u32],
+) -> Result<Certificate, Error> {
+    let mut certificate = Certificate {
+        straightness: 0.0,
+        smallest_side_angle: f64::INFINITY,
+        length: 0.0,
+    };
     let mut stretch = vec![DVec2::ZERO];
     let mut rotation = DVec2::X;
     for (i, (ends, &face)) in points.windows(2).zip(faces).enumerate() {
@@ -189,10 +222,19 @@ pub(crate) fn certify(mesh: &Mesh, points: &[SurfacePoint], faces: &[u32]) -> Re
         match (ends[1], onward) {
             (SurfacePoint::Edge { halfedge, .. }, Some((&next_face, _))) => {
                 if next_face != face {
-                    let leaving = if face_of(halfedge) == face { Some(halfedge) } else { mesh.twin(halfedge) };
-                    let entering = leaving.and_then(|h| mesh.twin(h)).filter(|&h| face_of(h) == next_face);
+                    let leaving = if face_of(halfedge) == face {
+                        Some(halfedge)
+                    } else {
+                        mesh.twin(halfedge)
+                    };
+                    let entering = leaving
+                        .and_then(|h| mesh.twin(h))
+                        .filter(|&h| face_of(h) == next_face);
                     let (Some(leaving), Some(entering)) = (leaving, entering) else {
-                        return Err(Error::BrokenSequence { position: i + 1, faces: [face, next_face] });
+                        return Err(Error::BrokenSequence {
+                            position: i + 1,
+                            faces: [face, next_face],
+                        });
                     };
                     let [out, back] = [leaving, entering].map(|h| direction_in_face(mesh, h));
                     // The edge runs the other way in the next face.
@@ -220,7 +262,10 @@ pub(crate) fn certify(mesh: &Mesh, points: &[SurfacePoint], faces: &[u32]) -> Re
 fn frame(mesh: &Mesh, face: u32) -> [DVec2; 3] {
     let [a, b, c] = mesh.faces()[face as usize].map(|v| mesh.position(v));
     let base = (b - a).length();
-    let (along, away) = ((c - a).dot(b - a) / base, (b - a).cross(c - a).length() / base);
+    let (along, away) = (
+        (c - a).dot(b - a) / base,
+        (b - a).cross(c - a).length() / base,
+    );
     [DVec2::ZERO, DVec2::new(base, 0.0), DVec2::new(along, away)]
 }
 
@@ -230,13 +275,22 @@ fn direction_in_face(mesh: &Mesh, h: u32) -> DVec2 {
 }
 
 /// The vector from one point of a face to another, in its frame.
-fn step_in_face(mesh: &Mesh, face: u32, from: SurfacePoint, to: SurfacePoint) -> Result<DVec2, Error> {
+fn step_in_face(
+    mesh: &Mesh,
+    face: u32,
+    from: SurfacePoint,
+    to: SurfacePoint,
+) -> Result<DVec2, Error> {
     if face as usize >= mesh.face_count() {
-        return Err(Error::NoSuchFace { face, faces: mesh.face_count() });
+        return Err(Error::NoSuchFace {
+            face,
+            faces: mesh.face_count(),
+        });
     }
     let weights = |point: SurfacePoint| {
         let known = mesh.canonical(point).map(|_| point)?;
-        mesh.barycentric_in(face, known).ok_or(Error::SequenceMissesPoint { point })
+        mesh.barycentric_in(face, known)
+            .ok_or(Error::SequenceMissesPoint { point })
     };
     let (from, to) = (weights(from)?, weights(to)?);
     let corners = frame(mesh, face);
@@ -246,13 +300,21 @@ fn step_in_face(mesh: &Mesh, face: u32, from: SurfacePoint, to: SurfacePoint) ->
 /// Largest distance of the points from the line through the first and the last, or how much longer their polyline is
 /// than that chord, over the chord.
 fn bow(stretch: &[DVec2]) -> f64 {
-    let (Some(&first), Some(&last)) = (stretch.first(), stretch.last()) else { return 0.0 };
+    let (Some(&first), Some(&last)) = (stretch.first(), stretch.last()) else {
+        return 0.0;
+    };
     let chord = last - first;
     let length = chord.length();
     if length == 0.0 {
         return 0.0;
     }
-    let aside = stretch.iter().map(|&p| (chord.perp_dot(p - first) / length).abs()).fold(0.0, f64::max);
-    let walked: f64 = stretch.windows(2).map(|ends| ends[0].distance(ends[1])).sum();
+    let aside = stretch
+        .iter()
+        .map(|&p| (chord.perp_dot(p - first) / length).abs())
+        .fold(0.0, f64::max);
+    let walked: f64 = stretch
+        .windows(2)
+        .map(|ends| ends[0].distance(ends[1]))
+        .sum();
     aside.max(walked - length) / length
 }

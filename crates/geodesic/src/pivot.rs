@@ -106,7 +106,10 @@ impl Shortener {
         self.solve_strip(mesh, from, to);
         self.nodes.clear();
         self.nodes.append(&mut self.fresh);
-        self.nodes.push(Node { incoming: self.arrival, ..Node::new(to) });
+        self.nodes.push(Node {
+            incoming: self.arrival,
+            ..Node::new(to)
+        });
         for i in 1..self.nodes.len() - 1 {
             self.measure_sides(mesh, i);
         }
@@ -124,7 +127,12 @@ impl Shortener {
 
     /// Updates at the sharpest vertex, over and over, until every side angle is at least π or `limit` updates were
     /// made. Returns whether it got there.
-    pub(crate) fn shorten(&mut self, mesh: &Mesh, limit: usize, mut observe: impl FnMut(&Self, Update)) -> bool {
+    pub(crate) fn shorten(
+        &mut self,
+        mesh: &Mesh,
+        limit: usize,
+        mut observe: impl FnMut(&Self, Update),
+    ) -> bool {
         while let Some((i, angle, side)) = self.sharpest() {
             if self.updates >= limit {
                 return false;
@@ -134,7 +142,14 @@ impl Shortener {
                 && let SurfacePoint::Vertex(vertex) = point
             {
                 self.updates += 1;
-                observe(self, Update { vertex, angle, length: self.length() });
+                observe(
+                    self,
+                    Update {
+                        vertex,
+                        angle,
+                        length: self.length(),
+                    },
+                );
             }
         }
         true
@@ -194,7 +209,13 @@ impl Shortener {
 
     /// The taut path in `self.strip`, into `self.fresh` and `self.arrival`; its portals go into the store.
     fn solve_strip(&mut self, mesh: &Mesh, from: SurfacePoint, to: SurfacePoint) {
-        let Self { strip, funnel, fresh, store, .. } = self;
+        let Self {
+            strip,
+            funnel,
+            fresh,
+            store,
+            ..
+        } = self;
         fresh.clear();
         let mut departure = Node::new(from);
         let (Some(&first), Some(&last)) = (strip.portals.first(), strip.portals.last()) else {
@@ -216,15 +237,23 @@ impl Shortener {
                 Some(previous) => (corners[previous].at, corners[previous].last as usize + 1),
                 None => (strip.from, 0),
             };
-            let (onward, end) = corners.get(i).map_or((strip.to, count), |c| (c.at, c.first as usize));
+            let (onward, end) = corners
+                .get(i)
+                .map_or((strip.to, count), |c| (c.at, c.first as usize));
             let mut node = match i.checked_sub(1).map(|j| corners[j]) {
                 None => {
-                    departure.outgoing =
-                        Ray { halfedge: previous(first), angle: angle_2d(onward - at, strip.right[0] - at) };
+                    departure.outgoing = Ray {
+                        halfedge: previous(first),
+                        angle: angle_2d(onward - at, strip.right[0] - at),
+                    };
                     departure
                 }
                 Some(corner) => {
-                    let behind = if i >= 2 { corners[i - 2].at } else { strip.from };
+                    let behind = if i >= 2 {
+                        corners[i - 2].at
+                    } else {
+                        strip.from
+                    };
                     pivot_node(mesh, strip, corner, behind, onward)
                 }
             };
@@ -233,7 +262,10 @@ impl Shortener {
             node.leg = Leg {
                 start: store.len() as u32,
                 count: end.saturating_sub(begin) as u32,
-                first_face: strip.portals.get(entry).map_or(last_face, |&portal| face_of(portal)),
+                first_face: strip
+                    .portals
+                    .get(entry)
+                    .map_or(last_face, |&portal| face_of(portal)),
                 length: at.distance(onward),
             };
             if begin < end {
@@ -250,7 +282,9 @@ impl Shortener {
 
     fn measure_sides(&mut self, mesh: &Mesh, i: usize) {
         let node = &mut self.nodes[i];
-        let SurfacePoint::Vertex(v) = node.point else { return };
+        let SurfacePoint::Vertex(v) = node.point else {
+            return;
+        };
         (node.left, node.right) = side_angles(mesh, v, node.incoming, node.outgoing);
         node.settled = false;
     }
@@ -258,7 +292,12 @@ impl Shortener {
 
 /// The node at a corner of a taut path that comes from `behind` and goes on to `ahead`.
 fn pivot_node(mesh: &Mesh, strip: &Strip, corner: Corner, behind: DVec2, ahead: DVec2) -> Node {
-    let Corner { side, first, last, at } = corner;
+    let Corner {
+        side,
+        first,
+        last,
+        at,
+    } = corner;
     let entry = strip.portals[first as usize];
     let other = |k: u32| match side {
         Side::Left => strip.right[k as usize] - at,
@@ -269,10 +308,22 @@ fn pivot_node(mesh: &Mesh, strip: &Strip, corner: Corner, behind: DVec2, ahead: 
     // A portal whose origin is the vertex begins the corner in front of it; one whose tip is the vertex ends it.
     let exit = mesh.twin(strip.portals[last as usize]).unwrap_or(entry);
     let (vertex, incoming, outgoing) = match side {
-        Side::Right => (mesh.origin(entry), from_start(entry, incoming_turn), from_end(mesh, next(exit), outgoing_turn)),
-        Side::Left => (mesh.tip(entry), from_end(mesh, next(entry), incoming_turn), from_start(exit, outgoing_turn)),
+        Side::Right => (
+            mesh.origin(entry),
+            from_start(entry, incoming_turn),
+            from_end(mesh, next(exit), outgoing_turn),
+        ),
+        Side::Left => (
+            mesh.tip(entry),
+            from_end(mesh, next(entry), incoming_turn),
+            from_start(exit, outgoing_turn),
+        ),
     };
-    Node { incoming, outgoing, ..Node::new(SurfacePoint::Vertex(vertex)) }
+    Node {
+        incoming,
+        outgoing,
+        ..Node::new(SurfacePoint::Vertex(vertex))
+    }
 }
 
 fn from_start(halfedge: u32, angle: f64) -> Ray {
@@ -280,20 +331,35 @@ fn from_start(halfedge: u32, angle: f64) -> Ray {
 }
 
 fn from_end(mesh: &Mesh, halfedge: u32, turn: f64) -> Ray {
-    Ray { halfedge, angle: (mesh.corner_angle(halfedge) - turn).max(0.0) }
+    Ray {
+        halfedge,
+        angle: (mesh.corner_angle(halfedge) - turn).max(0.0),
+    }
 }
 
 /// The direction at `at`, if it is a vertex, to another point of the same face.
 pub(crate) fn ray_in_face(mesh: &Mesh, face: u32, at: SurfacePoint, to: SurfacePoint) -> Ray {
-    let SurfacePoint::Vertex(v) = at else { return Ray::default() };
-    let halfedge = (3 * face..3 * face + 3).find(|&h| mesh.origin(h) == v).unwrap_or(3 * face);
+    let SurfacePoint::Vertex(v) = at else {
+        return Ray::default();
+    };
+    let halfedge = (3 * face..3 * face + 3)
+        .find(|&h| mesh.origin(h) == v)
+        .unwrap_or(3 * face);
     let corner = mesh.position(v);
-    let angle = angle_between(mesh.position(mesh.tip(halfedge)) - corner, mesh.locate(to) - corner);
+    let angle = angle_between(
+        mesh.position(mesh.tip(halfedge)) - corner,
+        mesh.locate(to) - corner,
+    );
     Ray { halfedge, angle }
 }
 
 /// Angles to the left and to the right of a path through vertex `v`; `None` where the boundary lies in between.
-pub(crate) fn side_angles(mesh: &Mesh, v: u32, incoming: Ray, outgoing: Ray) -> (Option<f64>, Option<f64>) {
+pub(crate) fn side_angles(
+    mesh: &Mesh,
+    v: u32,
+    incoming: Ray,
+    outgoing: Ray,
+) -> (Option<f64>, Option<f64>) {
     let left = sweep(mesh, outgoing, incoming);
     let right = if mesh.is_boundary_vertex(v) {
         sweep(mesh, incoming, outgoing)

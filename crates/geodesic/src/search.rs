@@ -57,8 +57,15 @@ impl Search {
     fn offer(&mut self, index: u32, distance: f64, via: u32, estimate: impl FnOnce() -> f64) {
         let visit = &mut self.visits[index as usize];
         if visit.round < self.round || (visit.round == self.round && distance < visit.distance) {
-            *visit = Visit { distance, via, round: self.round };
-            self.heap.push(Reverse(Entry { key: (distance + estimate()).to_bits(), index }));
+            *visit = Visit {
+                distance,
+                via,
+                round: self.round,
+            };
+            self.heap.push(Reverse(Entry {
+                key: (distance + estimate()).to_bits(),
+                index,
+            }));
         }
     }
 
@@ -93,7 +100,9 @@ impl Search {
         let start = mesh.locate(from);
         for_corners(mesh, from, |v| {
             let position = mesh.position(v);
-            self.offer(v, start.distance(position), NONE, || position.distance(target));
+            self.offer(v, start.distance(position), NONE, || {
+                position.distance(target)
+            });
         });
         let mut best: Option<(f64, u32)> = None;
         while let Some((v, distance)) = self.settle() {
@@ -126,7 +135,9 @@ impl Search {
             let back = previous(h);
             if mesh.twin(back).is_none() {
                 let origin = mesh.origin(back);
-                self.offer(origin, distance + mesh.length(back), back, || estimate(origin));
+                self.offer(origin, distance + mesh.length(back), back, || {
+                    estimate(origin)
+                });
             }
             if across
                 && let Some(twin) = mesh.twin(next(h))
@@ -153,24 +164,53 @@ impl Search {
     }
 
     /// The strip along the traced path.
-    fn strip_along_chain(&self, mesh: &Mesh, from: SurfacePoint, to: SurfacePoint, strip: &mut Strip) {
+    fn strip_along_chain(
+        &self,
+        mesh: &Mesh,
+        from: SurfacePoint,
+        to: SurfacePoint,
+        strip: &mut Strip,
+    ) {
         let start = self.chain.last().map_or(NONE, |&(v, _)| v);
         // A start at a vertex is the first vertex of the chain; any other start has a step to it inside a face.
         let departure = match from {
             SurfacePoint::Vertex(_) => None,
-            _ => Some(Step::Inside { face: common_face(mesh, from, start), point: from }),
+            _ => Some(Step::Inside {
+                face: common_face(mesh, from, start),
+                point: from,
+            }),
         };
         let arrival = match to {
             SurfacePoint::Vertex(_) => None,
-            _ => self.chain.first().map(|&(v, _)| Step::Inside { face: common_face(mesh, to, v), point: to }),
+            _ => self.chain.first().map(|&(v, _)| Step::Inside {
+                face: common_face(mesh, to, v),
+                point: to,
+            }),
         };
-        let steps = self.chain.iter().rev().skip(1).map(|&(v, via)| Step::new(mesh, v, via));
+        let steps = self
+            .chain
+            .iter()
+            .rev()
+            .skip(1)
+            .map(|&(v, via)| Step::new(mesh, v, via));
         let mut steps = departure.into_iter().chain(steps).chain(arrival);
-        let Some(mut incoming) = steps.next() else { return };
-        let mut vertices = self.chain.iter().rev().map(|&(v, _)| v).skip(usize::from(departure.is_none()));
+        let Some(mut incoming) = steps.next() else {
+            return;
+        };
+        let mut vertices = self
+            .chain
+            .iter()
+            .rev()
+            .map(|&(v, _)| v)
+            .skip(usize::from(departure.is_none()));
         let mut side = None;
         for (outgoing, v) in steps.zip(&mut vertices) {
-            let ends = |side| Some((incoming.arrival(mesh, v, side)?, outgoing.departure(mesh, v, side)?));
+            let ends = |side| {
+                Some((
+                    incoming.arrival(mesh, v, side)?,
+                    outgoing.departure(mesh, v, side)?,
+                ))
+            };
             let (left, right) = (ends(Side::Left), ends(Side::Right));
             let left_angle = left.and_then(|(i, o)| sweep(mesh, o, i));
             let right_angle = right.and_then(|(i, o)| sweep(mesh, i, o));
@@ -201,7 +241,10 @@ impl Search {
         self.begin(mesh.face_count());
         let (start, target) = (mesh.locate(from), mesh.locate(to));
         // Nothing is left to go in any face of the end point.
-        let reach = mesh.faces_of(to).map(|f| centroid(mesh, f).distance(target)).fold(0.0, f64::max);
+        let reach = mesh
+            .faces_of(to)
+            .map(|f| centroid(mesh, f).distance(target))
+            .fold(0.0, f64::max);
         let estimate = |c: DVec3| (c.distance(target) - reach).max(0.0);
         for f in mesh.faces_of(from) {
             let c = centroid(mesh, f);
@@ -211,7 +254,11 @@ impl Search {
             if mesh.face_contains(f, to) {
                 strip.restart(f);
                 let via = |f: u32| Some(self.visits[f as usize].via).filter(|&via| via != NONE);
-                strip.portals.extend(std::iter::successors(via(f), |&portal| via(face_of(portal))));
+                strip
+                    .portals
+                    .extend(std::iter::successors(via(f), |&portal| {
+                        via(face_of(portal))
+                    }));
                 strip.first_face = strip.portals.last().map_or(f, |&portal| face_of(portal));
                 strip.portals.reverse();
                 return Ok(());
@@ -220,7 +267,9 @@ impl Search {
             for h in 3 * f..3 * f + 3 {
                 if let Some(twin) = mesh.twin(h) {
                     let c = centroid(mesh, face_of(twin));
-                    self.offer(face_of(twin), distance + here.distance(c), h, || estimate(c));
+                    self.offer(face_of(twin), distance + here.distance(c), h, || {
+                        estimate(c)
+                    });
                 }
             }
         }
@@ -264,34 +313,59 @@ impl Step {
 
     /// The direction in which the step leaves `v`, in the face on the given side of it.
     fn departure(self, mesh: &Mesh, v: u32, side: Side) -> Option<Ray> {
-        let end_of = |halfedge| Ray { halfedge, angle: mesh.corner_angle(halfedge) };
+        let end_of = |halfedge| Ray {
+            halfedge,
+            angle: mesh.corner_angle(halfedge),
+        };
         match (self, side) {
-            (Self::Along { halfedge }, Side::Left) => Some(Ray { halfedge, angle: 0.0 }),
-            (Self::Along { halfedge }, Side::Right) => mesh.twin(halfedge).map(|twin| end_of(next(twin))),
+            (Self::Along { halfedge }, Side::Left) => Some(Ray {
+                halfedge,
+                angle: 0.0,
+            }),
+            (Self::Along { halfedge }, Side::Right) => {
+                mesh.twin(halfedge).map(|twin| end_of(next(twin)))
+            }
             (Self::Against { .. }, Side::Left) => None,
             (Self::Against { halfedge }, Side::Right) => Some(end_of(next(halfedge))),
             (Self::Across { portal }, _) => {
                 let halfedge = previous(portal);
-                Some(Ray { halfedge, angle: angle_across(mesh, halfedge) })
+                Some(Ray {
+                    halfedge,
+                    angle: angle_across(mesh, halfedge),
+                })
             }
-            (Self::Inside { face, point }, _) => Some(ray_in_face(mesh, face, SurfacePoint::Vertex(v), point)),
+            (Self::Inside { face, point }, _) => {
+                Some(ray_in_face(mesh, face, SurfacePoint::Vertex(v), point))
+            }
         }
     }
 
     /// The direction from `v`, where the step ends, back along it.
     fn arrival(self, mesh: &Mesh, v: u32, side: Side) -> Option<Ray> {
         match (self, side) {
-            (Self::Along { halfedge }, Side::Left) => {
-                Some(Ray { halfedge: next(halfedge), angle: mesh.corner_angle(next(halfedge)) })
-            }
-            (Self::Along { halfedge }, Side::Right) => mesh.twin(halfedge).map(|halfedge| Ray { halfedge, angle: 0.0 }),
+            (Self::Along { halfedge }, Side::Left) => Some(Ray {
+                halfedge: next(halfedge),
+                angle: mesh.corner_angle(next(halfedge)),
+            }),
+            (Self::Along { halfedge }, Side::Right) => mesh.twin(halfedge).map(|halfedge| Ray {
+                halfedge,
+                angle: 0.0,
+            }),
             (Self::Against { .. }, Side::Left) => None,
-            (Self::Against { halfedge }, Side::Right) => Some(Ray { halfedge, angle: 0.0 }),
+            (Self::Against { halfedge }, Side::Right) => Some(Ray {
+                halfedge,
+                angle: 0.0,
+            }),
             (Self::Across { portal }, _) => {
                 let halfedge = previous(mesh.twin(portal)?);
-                Some(Ray { halfedge, angle: angle_across(mesh, halfedge) })
+                Some(Ray {
+                    halfedge,
+                    angle: angle_across(mesh, halfedge),
+                })
             }
-            (Self::Inside { face, point }, _) => Some(ray_in_face(mesh, face, SurfacePoint::Vertex(v), point)),
+            (Self::Inside { face, point }, _) => {
+                Some(ray_in_face(mesh, face, SurfacePoint::Vertex(v), point))
+            }
         }
     }
 
@@ -341,7 +415,9 @@ fn for_corners(mesh: &Mesh, point: SurfacePoint, mut visit: impl FnMut(u32)) {
                 visit(mesh.apex(twin));
             }
         }
-        SurfacePoint::Face { face, .. } => mesh.faces()[face as usize].iter().copied().for_each(visit),
+        SurfacePoint::Face { face, .. } => {
+            mesh.faces()[face as usize].iter().copied().for_each(visit)
+        }
     }
 }
 
@@ -360,7 +436,9 @@ fn neighbours(mesh: &Mesh, v: u32, point: SurfacePoint) -> bool {
 
 /// The first face of a point that contains vertex `v`.
 fn common_face(mesh: &Mesh, point: SurfacePoint, v: u32) -> u32 {
-    mesh.faces_of(point).find(|&f| mesh.faces()[f as usize].contains(&v)).unwrap_or(0)
+    mesh.faces_of(point)
+        .find(|&f| mesh.faces()[f as usize].contains(&v))
+        .unwrap_or(0)
 }
 
 fn centroid(mesh: &Mesh, f: u32) -> DVec3 {
@@ -372,7 +450,10 @@ fn centroid(mesh: &Mesh, f: u32) -> DVec3 {
 #[inline]
 fn foot_and_height(base: f64, from_origin: f64, from_tip: f64) -> (f64, f64) {
     let foot = (base * base + from_origin * from_origin - from_tip * from_tip) / (2.0 * base);
-    (foot, (from_origin * from_origin - foot * foot).max(0.0).sqrt())
+    (
+        foot,
+        (from_origin * from_origin - foot * foot).max(0.0).sqrt(),
+    )
 }
 
 /// Length of the straight way from the origin of `h` over the edge opposite to it, whose twin is `twin`, to the vertex
@@ -381,7 +462,8 @@ fn foot_and_height(base: f64, from_origin: f64, from_tip: f64) -> (f64, f64) {
 fn straight_across(mesh: &Mesh, h: u32, twin: u32) -> Option<f64> {
     let base = mesh.length(twin);
     let (near, near_height) = foot_and_height(base, mesh.length(h), mesh.length(previous(h)));
-    let (far, far_height) = foot_and_height(base, mesh.length(next(twin)), mesh.length(previous(twin)));
+    let (far, far_height) =
+        foot_and_height(base, mesh.length(next(twin)), mesh.length(previous(twin)));
     let height = near_height + far_height;
     // Where the straight line meets the edge, times the height.
     let crossing = near * far_height + far * near_height;
@@ -391,9 +473,16 @@ fn straight_across(mesh: &Mesh, h: u32, twin: u32) -> Option<f64> {
 
 /// Angle at the origin of `h` from `h` to the vertex behind the opposite edge.
 fn angle_across(mesh: &Mesh, h: u32) -> f64 {
-    let Some(twin) = mesh.twin(next(h)) else { return 0.0 };
-    let (near, near_height) = foot_and_height(mesh.length(twin), mesh.length(h), mesh.length(previous(h)));
-    let (far, far_height) = foot_and_height(mesh.length(twin), mesh.length(next(twin)), mesh.length(previous(twin)));
+    let Some(twin) = mesh.twin(next(h)) else {
+        return 0.0;
+    };
+    let (near, near_height) =
+        foot_and_height(mesh.length(twin), mesh.length(h), mesh.length(previous(h)));
+    let (far, far_height) = foot_and_height(
+        mesh.length(twin),
+        mesh.length(next(twin)),
+        mesh.length(previous(twin)),
+    );
     // In the frame of the opposite edge: the tip of `h` is at the origin, our vertex above, the other one below.
     let to_tip = glam::DVec2::new(-near, -near_height);
     let to_far = glam::DVec2::new(far - near, -far_height - near_height);

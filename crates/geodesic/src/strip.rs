@@ -47,7 +47,11 @@ impl Strip {
     /// Leaves the last face through `portal`; going straight back undoes the last step instead.
     #[inline]
     pub(crate) fn push(&mut self, mesh: &Mesh, portal: u32) {
-        if self.portals.last().is_some_and(|&last| mesh.twin(last) == Some(portal)) {
+        if self
+            .portals
+            .last()
+            .is_some_and(|&last| mesh.twin(last) == Some(portal))
+        {
             self.portals.pop();
         } else {
             self.portals.push(portal);
@@ -56,9 +60,18 @@ impl Strip {
 
     /// Drops leading faces in which the strip still turns about `from`, and trailing ones in which it turns about `to`.
     pub(crate) fn trim(&mut self, mesh: &Mesh, from: SurfacePoint, to: SurfacePoint) {
-        let trailing = self.portals.iter().rev().take_while(|&&portal| portal_meets(mesh, portal, to)).count();
+        let trailing = self
+            .portals
+            .iter()
+            .rev()
+            .take_while(|&&portal| portal_meets(mesh, portal, to))
+            .count();
         self.portals.truncate(self.portals.len() - trailing);
-        let leading = self.portals.iter().take_while(|&&portal| portal_meets(mesh, portal, from)).count();
+        let leading = self
+            .portals
+            .iter()
+            .take_while(|&&portal| portal_meets(mesh, portal, from))
+            .count();
         self.drop_leading(mesh, leading);
     }
 
@@ -67,15 +80,29 @@ impl Strip {
     /// first visit are dropped (a shortest path meets no face twice).
     ///
     /// `visits` is scratch: one entry a face, equal to `u32::MAX` before and after.
-    pub(crate) fn cut_detours(&mut self, mesh: &Mesh, from: SurfacePoint, to: SurfacePoint, visits: &mut [u32]) {
+    pub(crate) fn cut_detours(
+        &mut self,
+        mesh: &Mesh,
+        from: SurfacePoint,
+        to: SurfacePoint,
+        visits: &mut [u32],
+    ) {
         let entered = |portal: u32| mesh.twin(portal).map_or(face_of(portal), face_of);
-        let leading = self.portals.iter().rposition(|&p| mesh.face_contains(entered(p), from)).map_or(0, |i| i + 1);
+        let leading = self
+            .portals
+            .iter()
+            .rposition(|&p| mesh.face_contains(entered(p), from))
+            .map_or(0, |i| i + 1);
         self.drop_leading(mesh, leading);
         let mut kept = 0;
         visits[self.first_face as usize] = 0;
         for i in 0..self.portals.len() {
             let portal = self.portals[i];
-            let current = if kept == 0 { self.first_face } else { entered(self.portals[kept - 1]) };
+            let current = if kept == 0 {
+                self.first_face
+            } else {
+                entered(self.portals[kept - 1])
+            };
             if mesh.face_contains(current, to) {
                 break;
             }
@@ -112,14 +139,25 @@ impl Strip {
     /// Where two neighbours share several edges the first is taken.
     pub(crate) fn through_faces(&mut self, mesh: &Mesh, faces: &[u32]) -> Result<(), Error> {
         if let Some(&face) = faces.iter().find(|&&f| f as usize >= mesh.face_count()) {
-            return Err(Error::NoSuchFace { face, faces: mesh.face_count() });
+            return Err(Error::NoSuchFace {
+                face,
+                faces: mesh.face_count(),
+            });
         }
-        let Some(&first) = faces.first() else { return Err(Error::BrokenSequence { position: 0, faces: [0, 0] }) };
+        let Some(&first) = faces.first() else {
+            return Err(Error::BrokenSequence {
+                position: 0,
+                faces: [0, 0],
+            });
+        };
         self.restart(first);
         for (position, pair) in faces.windows(2).enumerate() {
             let portal = (3 * pair[0]..3 * pair[0] + 3)
                 .find(|&h| mesh.twin(h).is_some_and(|twin| face_of(twin) == pair[1]))
-                .ok_or(Error::BrokenSequence { position: position + 1, faces: [pair[0], pair[1]] })?;
+                .ok_or(Error::BrokenSequence {
+                    position: position + 1,
+                    faces: [pair[0], pair[1]],
+                })?;
             self.portals.push(portal);
         }
         Ok(())
@@ -131,12 +169,21 @@ impl Strip {
         self.right.clear();
         self.left_since.clear();
         self.right_since.clear();
-        let (Some(&first), Some(&last)) = (self.portals.first(), self.portals.last()) else { return };
+        let (Some(&first), Some(&last)) = (self.portals.first(), self.portals.last()) else {
+            return;
+        };
         // Positions in space of the ends of the current portal go along with their images.
-        let (mut right_end, mut left_end) = (mesh.position(mesh.origin(first)), mesh.position(mesh.tip(first)));
+        let (mut right_end, mut left_end) = (
+            mesh.position(mesh.origin(first)),
+            mesh.position(mesh.tip(first)),
+        );
         let (mut right, mut left) = (DVec2::ZERO, DVec2::new(mesh.length(first), 0.0));
         let (mut right_since, mut left_since) = (0, 0);
-        let place = |right_end: glam::DVec3, left_end: glam::DVec3, right: DVec2, left: DVec2, third: glam::DVec3| {
+        let place = |right_end: glam::DVec3,
+                     left_end: glam::DVec3,
+                     right: DVec2,
+                     left: DVec2,
+                     third: glam::DVec3| {
             let edge = left_end - right_end;
             let length = edge.length();
             let along = (third - right_end).dot(edge) / length;
@@ -146,7 +193,13 @@ impl Strip {
             right + along * unit + away * DVec2::new(unit.y, -unit.x)
         };
         // The apex of the first face lies behind the portal: seen from `left -> right` it is on the far side.
-        let apex = place(left_end, right_end, left, right, mesh.position(mesh.apex(first)));
+        let apex = place(
+            left_end,
+            right_end,
+            left,
+            right,
+            mesh.position(mesh.apex(first)),
+        );
         self.from = image(mesh, first, from, [right, left, apex]);
         for k in 0..self.portals.len() {
             let portal = self.portals[k];
@@ -175,7 +228,10 @@ impl Strip {
             Side::Right => &self.right_since,
         };
         let copy = since[k as usize];
-        let further = since[k as usize + 1..].iter().take_while(|&&other| other == copy).count();
+        let further = since[k as usize + 1..]
+            .iter()
+            .take_while(|&&other| other == copy)
+            .count();
         k + further as u32
     }
 
@@ -194,7 +250,9 @@ impl Strip {
 fn portal_meets(mesh: &Mesh, portal: u32, point: SurfacePoint) -> bool {
     match point {
         SurfacePoint::Vertex(v) => mesh.origin(portal) == v || mesh.tip(portal) == v,
-        SurfacePoint::Edge { halfedge, .. } => halfedge == portal || mesh.twin(halfedge) == Some(portal),
+        SurfacePoint::Edge { halfedge, .. } => {
+            halfedge == portal || mesh.twin(halfedge) == Some(portal)
+        }
         SurfacePoint::Face { .. } => false,
     }
 }
