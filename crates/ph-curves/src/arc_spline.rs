@@ -13,7 +13,32 @@ pub enum Piece {
     /// A straight segment; its normal is the right-hand one of its direction of travel.
     Segment(Segment),
     /// An arc of class 3. Its radius is zero for a corner, a point with a fan of normals.
-    Arc(TQuartic),
+    Arc(PlacedArc),
+}
+
+/// A class-3 arc about an origin of its own, near to it: supports are then as small as the arc, and small arcs far from
+/// the origin of the plane keep their digits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct PlacedArc {
+    /// Where the arc's own origin lies.
+    pub origin: DVec2,
+    /// The arc about its own origin.
+    pub local: TQuartic,
+}
+
+impl PlacedArc {
+    /// The same arc about the origin of the plane.
+    #[must_use]
+    pub fn arc(&self) -> TQuartic {
+        self.local.translate(self.origin)
+    }
+
+    /// The point at `t` in `[0, 1]`.
+    #[must_use]
+    pub fn point(&self, t: f64) -> DVec2 {
+        self.origin + self.local.point(t)
+    }
 }
 
 /// A straight segment of an [`ArcSpline`] with its unit normal, which stays when it shrinks or is offset.
@@ -80,7 +105,7 @@ impl Piece {
     pub fn normal(&self, t: f64) -> DVec2 {
         match self {
             Self::Segment(segment) => segment.normal,
-            Self::Arc(arc) => arc.normal(t),
+            Self::Arc(arc) => arc.local.normal(t),
         }
     }
 
@@ -89,7 +114,7 @@ impl Piece {
     pub fn radius(&self, t: f64) -> f64 {
         match self {
             Self::Segment(_) => f64::INFINITY,
-            Self::Arc(arc) => arc.radius(t),
+            Self::Arc(arc) => arc.local.radius(t),
         }
     }
 
@@ -106,7 +131,10 @@ impl Piece {
                     ..*segment
                 })
             }
-            Self::Arc(arc) => Self::Arc(arc.offset(distance)),
+            Self::Arc(arc) => Self::Arc(PlacedArc {
+                local: arc.local.offset(distance),
+                ..*arc
+            }),
         }
     }
 
@@ -115,7 +143,7 @@ impl Piece {
     pub fn length(&self) -> f64 {
         match self {
             Self::Segment(segment) => (segment.end - segment.start).length(),
-            Self::Arc(arc) => arc.length(),
+            Self::Arc(arc) => arc.local.length(),
         }
     }
 
@@ -125,7 +153,10 @@ impl Piece {
     /// [`Error::OutsideDomain`] otherwise.
     pub fn part(&self, from: f64, to: f64) -> Result<Self, Error> {
         match self {
-            Self::Arc(arc) => arc.part(from, to).map(Self::Arc),
+            Self::Arc(arc) => Ok(Self::Arc(PlacedArc {
+                local: arc.local.part(from, to)?,
+                ..*arc
+            })),
             Self::Segment(segment) => {
                 if !(from >= 0.0 && from < to && to <= 1.0) {
                     return Err(Error::OutsideDomain {
@@ -149,7 +180,12 @@ impl Piece {
     #[must_use]
     pub fn quartic(&self) -> [DVec3; 5] {
         match self {
-            Self::Arc(arc) => arc.quartic(),
+            Self::Arc(arc) => {
+                let origin = arc.origin;
+                arc.local
+                    .quartic()
+                    .map(|x| DVec3::new(x.x, x.y + x.x * origin.x, x.z + x.x * origin.y))
+            }
             Self::Segment(segment) => std::array::from_fn(|k| {
                 let point = segment.start.lerp(segment.end, k as f64 / 4.0);
                 DVec3::new(1.0, point.x, point.y)
@@ -163,7 +199,7 @@ impl Piece {
     /// [`Error::NonFinite`] if the coefficients overflow.
     pub fn to_bezier(&self) -> Result<BezierCurve<DVec2>, Error> {
         match self {
-            Self::Arc(arc) => rational_curve(&arc.quartic()),
+            Self::Arc(_) => rational_curve(&self.quartic()),
             Self::Segment(segment) => Ok(BezierCurve::polynomial(&[segment.start, segment.end])?),
         }
     }

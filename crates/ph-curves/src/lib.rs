@@ -28,7 +28,7 @@ mod t_cubic;
 
 pub use approximate::{Approximated, Approximation, Breakpoints, approximate, breakpoints};
 pub use arc_length::ArcLength;
-pub use arc_spline::{ArcSpline, Joint, Piece, Segment};
+pub use arc_spline::{ArcSpline, Joint, Piece, PlacedArc, Segment};
 pub use cam::{Antisymmetric, Cam, HarmonicLift, Lift};
 pub use class3::{G1Ends, LineElement};
 pub use constant_width::{

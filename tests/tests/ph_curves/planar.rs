@@ -413,7 +413,7 @@ fn g2_approximate(case: &Case<'_>) -> Result<(), Error> {
         .iter()
         .zip(&result.sources)
         .filter_map(|(piece, source)| match piece {
-            Piece::Arc(arc) => Some((*arc, *source)),
+            Piece::Arc(arc) => Some((arc.arc(), *source)),
             Piece::Segment(_) => None,
         })
         .collect();
