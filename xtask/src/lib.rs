@@ -20,7 +20,7 @@ pub mod bench;
 pub mod color;
 pub mod demo;
 pub mod demos;
-// EXPORT
+pub mod export;
 pub mod figure;
 pub mod gallery;
 pub mod image;

@@ -9,6 +9,7 @@ use anyhow::{Context as _, Result, ensure};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::Value;
 
+use crate::export::{Part, Step, gltf, obj};
 use crate::figure::Figure;
 use crate::image::{Image, write_animation};
 use crate::render::{Camera, Options, Picture as RenderedPicture, Scene, render};
@@ -168,6 +169,23 @@ impl Context {
     /// As [`Context::file`].
     pub fn text(&mut self, name: &str, text: &str) -> Result<()> {
         self.file(name, |file| file.write_all(text.as_bytes()))
+    }
+
+    /// Writes triangles as `NAME.obj` and `NAME.gltf`.
+    ///
+    /// # Errors
+    /// As [`Context::file`], and as [`Mesh::check`](crate::mesh::Mesh::check).
+    pub fn meshes(&mut self, name: &str, parts: &[Part<'_>]) -> Result<()> {
+        self.text(&format!("{name}.obj"), &obj(parts)?)?;
+        self.text(&format!("{name}.gltf"), &gltf(parts)?)
+    }
+
+    /// Writes exact surfaces as `NAME.step`.
+    ///
+    /// # Errors
+    /// As [`Context::file`].
+    pub fn step(&mut self, name: &str, step: &Step) -> Result<()> {
+        self.text(&format!("{name}.step"), &step.text())
     }
 
     /// Draws a figure as `NAME.png` and `NAME.svg`. Names start with `figure`.

@@ -14,7 +14,7 @@ mod step;
 
 pub use gltf::gltf;
 pub use obj::obj;
-pub use step::{Patch, Step};
+pub use step::Step;
 
 use crate::color::Color;
 use crate::mesh::Mesh;

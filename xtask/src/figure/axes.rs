@@ -221,9 +221,15 @@ fn inside_axes(plot: &Plot, place: Rect) -> Rect {
 fn ticks(plot: &Plot, fit: &Fit) -> [Vec<Tick>; 2] {
     let [low, high] = fit.range();
     let size = fit.frame.size();
+    let mut wanted = size / DVec2::new(50.0, 38.0);
+    if plot.equal {
+        // Equal units want equal steps, the ones for which there is room on both axes.
+        let per_unit = (wanted / (high - low)).min_element();
+        wanted = (high - low) * per_unit;
+    }
     [
-        plot.scales[0].ticks(low.x, high.x, size.x / 62.0),
-        plot.scales[1].ticks(low.y, high.y, size.y / 38.0),
+        plot.scales[0].ticks(low.x, high.x, wanted.x),
+        plot.scales[1].ticks(low.y, high.y, wanted.y),
     ]
 }
 

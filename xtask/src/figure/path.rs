@@ -173,19 +173,34 @@ impl Path {
             return self.clone();
         }
         let mut path = Self::new();
-        let mut previous: Option<DVec2> = None;
-        for pair in self.samples(0.0).windows(2) {
-            let (Some(&a), Some(&b)) = (pair.first(), pair.last()) else {
+        let (mut previous, mut start) = (None, DVec2::ZERO);
+        for verb in &self.verbs {
+            if let Verb::Move(p) = *verb {
+                (previous, start) = (Some(p), p);
                 continue;
-            };
-            let Some((enter, leave)) = clip(a, b, low, high) else {
-                continue;
-            };
-            if previous != Some(enter) {
-                path.move_to(enter);
             }
-            path.line_to(leave);
-            previous = Some(leave);
+            let piece = Self {
+                verbs: vec![
+                    Verb::Move(previous.unwrap_or(start)),
+                    if *verb == Verb::Close {
+                        Verb::Line(start)
+                    } else {
+                        *verb
+                    },
+                ],
+            };
+            for pair in piece.samples(0.0).windows(2) {
+                let (Some(&a), Some(&b)) = (pair.first(), pair.last()) else {
+                    continue;
+                };
+                if let Some((enter, leave)) = clip(a, b, low, high) {
+                    if path.last() != Some(enter) {
+                        path.move_to(enter);
+                    }
+                    path.line_to(leave);
+                }
+            }
+            previous = piece.samples(0.0).last().copied();
         }
         path
     }
