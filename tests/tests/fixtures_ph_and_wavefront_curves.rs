@@ -19,7 +19,6 @@ fn fixtures_ph_and_wavefront_curves() {
         .iter()
         // Item h is fronts, judged by a test of its own.
         .filter(|case| text(case, "item") != "h")
-        .filter(|case| !more::PENDING.contains(&text(case, "op").as_str()))
         .map(|case| {
             let tolerance = Tolerance::Componentwise(case["tol"].as_f64().unwrap_or(0.0));
             Case::new(&text(case, "name"), &text(case, "op"), &case["input"])

@@ -144,13 +144,29 @@ impl EvolutePolygon {
         2.0 * self.minimum_width()
     }
 
-    /// The rosette of the given constant width, one of the involutes: `2n` T-quartics with the start radii
-    /// `(width ± c_j) / 2`, `c_j` the alternating sum of the lengths of the cubics from `j` on.
+    /// The rosette of the given constant width, one of the involutes, counter-clockwise.
     ///
     /// # Errors
     ///
     /// [`Error::WidthTooSmall`] unless the width exceeds [`EvolutePolygon::minimum_width`]; [`Error::NonFinite`].
     pub fn rosette(&self, width: f64) -> Result<Rosette<4>, Error> {
+        let arcs = self.arcs(width)?;
+        let clockwise = arcs.first().is_some_and(|arc| arc.turning() < 0.0);
+        Rosette::try_new(if clockwise {
+            arcs.iter().rev().map(PhArc::reverse).collect()
+        } else {
+            arcs
+        })
+    }
+
+    /// The `2n` T-quartics of the rosette in the order and sense of the cubics, with the start radii `(width ± c_j) / 2`,
+    /// `c_j` the alternating sum of the lengths of the cubics from `j` on. The normal of the first one starts along the
+    /// travel of the first cubic.
+    ///
+    /// # Errors
+    ///
+    /// As for [`EvolutePolygon::rosette`].
+    pub fn arcs(&self, width: f64) -> Result<Vec<TQuartic>, Error> {
         if !width.is_finite() {
             return Err(Error::NonFinite { what: "width" });
         }
@@ -159,25 +175,18 @@ impl EvolutePolygon {
             return Err(Error::WidthTooSmall { width, minimum });
         }
         let count = self.cubics.len();
-        let arcs = (0..2 * count).map(|j| {
-            let difference = if j < count {
-                self.alternating_lengths[j]
-            } else {
-                -self.alternating_lengths[j - count]
-            };
-            involute_outwards(
-                &self.cubics[j % count],
-                0.5 * (width + difference),
-                j % 2 == 0,
-            )
-        });
-        let arcs = arcs.collect::<Result<Vec<_>, _>>()?;
-        let arcs = if arcs[0].turning() > 0.0 {
-            arcs
-        } else {
-            arcs.iter().rev().map(PhArc::reverse).collect()
-        };
-        Rosette::try_new(arcs)
+        let differences = self.alternating_lengths.iter().copied();
+        let both_rounds = differences.clone().chain(differences.map(|c| -c));
+        both_rounds
+            .enumerate()
+            .map(|(j, difference)| {
+                involute_outwards(
+                    &self.cubics[j % count],
+                    0.5 * (width + difference),
+                    j % 2 == 0,
+                )
+            })
+            .collect()
     }
 }
 

@@ -334,4 +334,14 @@ pub enum Error {
         /// Difference of the two normals over the largest normal.
         defect: f64,
     },
+    /// A tube whose radius reaches a radius of curvature of its spine, or is not positive.
+    #[error(
+        "a tube of radius {radius} around a curve whose radius of curvature falls to {least_radius} is not regular"
+    )]
+    TubeTooThick {
+        /// The radius of the tube.
+        radius: f64,
+        /// The smallest radius of curvature found.
+        least_radius: f64,
+    },
 }

@@ -53,6 +53,6 @@ pub use quintic::Hermite;
 pub use rosette::{Diameter, Rosette};
 pub use spatial::{
     Frame, Quaternion, RationalFrameQuintic, SpatialHermite, SpatialHermiteAngles, SpatialPh,
-    rotation_minimising_frames,
+    euler_rodrigues_tube, rotation_minimising_frames, rotation_minimising_tube,
 };
 pub use t_cubic::TCubic;

@@ -228,9 +228,12 @@ const CERTIFICATE_DEPTH: u32 = 48;
 
 /// Whether a polynomial is positive on `[0, 1]`, by the signs of its Bernstein coefficients on parts.
 pub(crate) fn keeps_positive(coefficients: &[f64], depth: u32) -> bool {
-    let ends_positive =
-        |ends: &[f64]| matches!(ends, [first, .., last] if *first > 0.0 && *last > 0.0);
-    if !ends_positive(coefficients) || depth > CERTIFICATE_DEPTH {
+    let ends = [coefficients.first(), coefficients.last()];
+    if depth > CERTIFICATE_DEPTH
+        || ends
+            .iter()
+            .any(|end| !end.is_some_and(|value| *value > 0.0))
+    {
         return false;
     }
     if coefficients.iter().all(|&coefficient| coefficient > 0.0) {

@@ -10,9 +10,11 @@ mod frame;
 mod hermite;
 mod quaternion;
 mod rrmf;
+mod tube;
 
 pub use curve::SpatialPh;
 pub use frame::{Frame, rotation_minimising_frames};
 pub use hermite::{SpatialHermite, SpatialHermiteAngles};
 pub use quaternion::Quaternion;
 pub use rrmf::RationalFrameQuintic;
+pub use tube::{euler_rodrigues_tube, rotation_minimising_tube};

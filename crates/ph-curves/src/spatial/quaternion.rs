@@ -110,14 +110,19 @@ impl Quaternion {
     /// The symmetric product `(A i B* + B i A*) / 2`, the polar form of [`Quaternion::image`] of `i`.
     #[must_use]
     pub fn polar_image(self, other: Self) -> DVec3 {
-        let i = Self {
+        self.polar_image_of(DVec3::X, other)
+    }
+
+    /// The symmetric product `(A axis B* + B axis A*) / 2`.
+    #[must_use]
+    pub fn polar_image_of(self, axis: DVec3, other: Self) -> DVec3 {
+        let axis = Self {
             scalar: 0.0,
-            vector: DVec3::X,
+            vector: axis,
         };
-        self.product(i)
-            .product(other.conjugate())
-            .vector
-            .midpoint(other.product(i).product(self.conjugate()).vector)
+        let one = self.product(axis).product(other.conjugate());
+        one.vector
+            .midpoint(other.product(axis).product(self.conjugate()).vector)
     }
 
     /// The `(1, i)` part of `A* B` as a complex number: real part [`Quaternion::dot`], imaginary part the twist
