@@ -86,26 +86,7 @@ impl<'m> PathFinder<'m> {
         to: SurfacePoint,
     ) -> Result<&GeodesicPath, Error> {
         let (from, to) = (self.mesh.canonical(from)?, self.mesh.canonical(to)?);
-        if let Some(face) = self
-            .mesh
-            .faces_of(from)
-            .find(|&f| self.mesh.face_contains(f, to))
-        {
-            self.path.set_segment(self.mesh, face, from, to);
-            return Ok(&self.path);
-        }
-        let strip = &mut self.shortener.strip;
-        match self.start {
-            Start::Vertices => self
-                .search
-                .over_vertices(self.mesh, from, to, true, strip)
-                .map(drop)?,
-            Start::Edges => self
-                .search
-                .over_vertices(self.mesh, from, to, false, strip)
-                .map(drop)?,
-            Start::Faces => self.search.over_faces(self.mesh, from, to, strip)?,
-        }
+        self.search(from, to)?;
         self.shorten(from, to)
     }
 
@@ -148,6 +129,38 @@ impl<'m> PathFinder<'m> {
         Ok(&self.path)
     }
 
+    /// What is left of a caller's sequence of faces for a path between two points: faces before the last one that
+    /// contains `from`, after the first one that contains `to`, and between two visits to the same face are dropped.
+    ///
+    /// # Errors
+    ///
+    /// As for [`PathFinder::along`].
+    pub fn trimmed(
+        &mut self,
+        faces: &[u32],
+        from: SurfacePoint,
+        to: SurfacePoint,
+    ) -> Result<Vec<u32>, Error> {
+        let (from, to) = (self.mesh.canonical(from)?, self.mesh.canonical(to)?);
+        self.enter(faces, from, to)?;
+        Ok(self.shortener.strip.faces(self.mesh).collect())
+    }
+
+    /// The faces of the initial path between two points, before any shortening.
+    ///
+    /// # Errors
+    ///
+    /// As for [`PathFinder::shortest`].
+    pub fn initial_faces(
+        &mut self,
+        from: SurfacePoint,
+        to: SurfacePoint,
+    ) -> Result<Vec<u32>, Error> {
+        let (from, to) = (self.mesh.canonical(from)?, self.mesh.canonical(to)?);
+        self.search(from, to)?;
+        Ok(self.shortener.strip.faces(self.mesh).collect())
+    }
+
     /// Nodes settled by the search of the last query: what its time grows with.
     #[must_use]
     pub fn settled(&self) -> usize {
@@ -165,6 +178,24 @@ impl<'m> PathFinder<'m> {
         self.visits.resize(self.mesh.face_count(), u32::MAX);
         strip.cut_detours(self.mesh, from, to, &mut self.visits);
         Ok(())
+    }
+
+    /// Puts the initial sequence of faces into the strip: none but the common face, where there is one.
+    fn search(&mut self, from: SurfacePoint, to: SurfacePoint) -> Result<(), Error> {
+        let strip = &mut self.shortener.strip;
+        if let Some(face) = self
+            .mesh
+            .faces_of(from)
+            .find(|&f| self.mesh.face_contains(f, to))
+        {
+            strip.restart(face);
+            return Ok(());
+        }
+        match self.start {
+            Start::Vertices => self.search.over_vertices(self.mesh, from, to, true, strip),
+            Start::Edges => self.search.over_vertices(self.mesh, from, to, false, strip),
+            Start::Faces => self.search.over_faces(self.mesh, from, to, strip),
+        }
     }
 
     /// Shortens what lies in the strip.

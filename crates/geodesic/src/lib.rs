@@ -8,6 +8,7 @@ mod path;
 mod pivot;
 mod search;
 pub mod shapes;
+mod straightest;
 mod strip;
 mod surface_point;
 
@@ -22,5 +23,6 @@ pub use mesh::{
 };
 pub use path::{CERTIFIED_ANGLE, CERTIFIED_STRAIGHTNESS, Certificate, GeodesicPath, Pivot};
 pub use pivot::Update;
+pub use straightest::{AtBoundary, Stop, Straightest, Trace};
 pub use strip::Side;
 pub use surface_point::{OUTSIDE, SNAP, SurfacePoint};

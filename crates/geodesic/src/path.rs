@@ -95,33 +95,9 @@ impl GeodesicPath {
         certify(mesh, &self.points, &self.faces)
     }
 
-    pub(crate) fn clear(&mut self) {
-        self.points.clear();
-        self.positions.clear();
-        self.faces.clear();
-        self.pivots.clear();
-        self.updates.clear();
-        self.length = 0.0;
-    }
-
     fn push(&mut self, mesh: &Mesh, point: SurfacePoint) {
         self.points.push(point);
         self.positions.push(mesh.locate(point));
-    }
-
-    /// The single segment between two points of a face.
-    pub(crate) fn set_segment(
-        &mut self,
-        mesh: &Mesh,
-        face: u32,
-        from: SurfacePoint,
-        to: SurfacePoint,
-    ) {
-        self.clear();
-        self.push(mesh, from);
-        self.push(mesh, to);
-        self.faces.push(face);
-        self.length = self.positions[0].distance(self.positions[1]);
     }
 
     /// Writes out a shortened path.

@@ -94,7 +94,7 @@ impl Search {
         to: SurfacePoint,
         across: bool,
         strip: &mut Strip,
-    ) -> Result<f64, Error> {
+    ) -> Result<(), Error> {
         self.begin(mesh.vertex_count());
         let target = mesh.locate(to);
         let start = mesh.locate(from);
@@ -120,10 +120,10 @@ impl Search {
             }
             self.expand(mesh, v, distance, target, across);
         }
-        let (length, last) = best.ok_or(Error::NoPath { from, to })?;
+        let (_, last) = best.ok_or(Error::NoPath { from, to })?;
         self.trace(mesh, last);
         self.strip_along_chain(mesh, from, to, strip);
-        Ok(length)
+        Ok(())
     }
 
     #[inline]

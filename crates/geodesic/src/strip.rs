@@ -163,6 +163,12 @@ impl Strip {
         Ok(())
     }
 
+    /// The faces, in order.
+    pub(crate) fn faces<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = u32> + 'a {
+        let entered = |&portal: &u32| mesh.twin(portal).map_or(face_of(portal), face_of);
+        std::iter::once(self.first_face).chain(self.portals.iter().map(entered))
+    }
+
     /// Lays the faces out in the plane: the first portal along the x axis, its face above.
     pub(crate) fn flatten(&mut self, mesh: &Mesh, from: SurfacePoint, to: SurfacePoint) {
         self.left.clear();
