@@ -1,6 +1,7 @@
 //! Tessellations: what the renderer draws and the exporters write.
 
 mod build;
+mod canal;
 mod tube;
 
 pub use build::chord_steps;

@@ -87,7 +87,7 @@
 
 // mod rrmf_tube;
 
-// mod seahorse;
+mod seahorse;
 
 // mod straightest;
 
@@ -143,7 +143,7 @@ pub fn all() -> Vec<Entry> {
 
         // entry::<rrmf_tube::RrmfTube>(),
 
-        // entry::<seahorse::Seahorse>(),
+        entry::<seahorse::Seahorse>(),
 
         // entry::<straightest::Straightest>(),
 
