@@ -142,9 +142,7 @@ pub fn all() -> Vec<Entry> {
         // entry::<ribbon_surface::RibbonSurface>(),
 
         // entry::<rrmf_tube::RrmfTube>(),
-
         entry::<seahorse::Seahorse>(),
-
         // entry::<straightest::Straightest>(),
 
         // entry::<t_quartic::TQuartic>(),

@@ -29,7 +29,9 @@ impl Mesh {
         };
         let inner = sectors..look.positions().len().saturating_sub(sectors);
         let bend = inner.map(height).fold(0.0, f64::max);
-        let steps = (FIRST_LOOK.0 as f64 * (2.0 * bend / tolerance).sqrt()).ceil().clamp(1.0, MOST_STEPS);
+        let steps = (FIRST_LOOK.0 as f64 * (2.0 * bend / tolerance).sqrt())
+            .ceil()
+            .clamp(1.0, MOST_STEPS);
         let radius = look
             .positions()
             .chunks_exact(sectors)
@@ -37,7 +39,11 @@ impl Mesh {
             .fold(0.0, f64::max);
         let around = chord_steps(radius, TAU * radius, 0.5 * tolerance).max(8);
         let tube = curve.tessellate(&grid(steps as usize, around))?;
-        Ok(Self::new(tube.positions().to_vec(), tube.normals().to_vec(), tube.triangles()))
+        Ok(Self::new(
+            tube.positions().to_vec(),
+            tube.normals().to_vec(),
+            tube.triangles(),
+        ))
     }
 
     /// The part of a sphere within `angle` of the direction `pole`, its chord error within `tolerance`.
@@ -49,7 +55,8 @@ impl Mesh {
         let rings = chord_steps(radius, angle * radius, tolerance).max(2);
         let around = chord_steps(radius, TAU * radius, tolerance).max(8);
         Self::grid(around, rings, |azimuth, polar| {
-            let ((sin_a, cos_a), (sin_p, cos_p)) = ((TAU * azimuth).sin_cos(), (angle * polar).sin_cos());
+            let ((sin_a, cos_a), (sin_p, cos_p)) =
+                ((TAU * azimuth).sin_cos(), (angle * polar).sin_cos());
             let normal = cos_p * pole + sin_p * (cos_a * u + sin_a * v);
             (centre + radius * normal, normal)
         })

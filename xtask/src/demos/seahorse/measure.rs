@@ -25,8 +25,15 @@ pub(super) fn joints(chain: &CanalChain) -> Result<Joints> {
         let (end, start) = (arc.at(1.0), next.at(0.0));
         for k in 0..POINTS_PER_CIRCLE {
             let theta = TAU * f64::from(k) / f64::from(POINTS_PER_CIRCLE);
-            let (p, q) = (end.surface_point(theta, DVec3::Y)?, start.surface_point(theta, DVec3::Y)?);
-            let angle = p.normal.cross(q.normal).length().atan2(p.normal.dot(q.normal));
+            let (p, q) = (
+                end.surface_point(theta, DVec3::Y)?,
+                start.surface_point(theta, DVec3::Y)?,
+            );
+            let angle = p
+                .normal
+                .cross(q.normal)
+                .length()
+                .atan2(p.normal.dot(q.normal));
             found.angle = found.angle.max(angle);
             found.gap = found.gap.max(p.position.distance(q.position));
         }
@@ -35,10 +42,14 @@ pub(super) fn joints(chain: &CanalChain) -> Result<Joints> {
     Ok(found)
 }
 
-/// Largest deviation of the square of a sphere's vector from one, along all curves.
+/// Largest deviation from the unit quadric along all curves, `X . X - w^2` in homogeneous form: divided by w^2 it would
+/// only show how the sphere's vector grows where the tail ends in a point. The weights are of the order of one.
 pub(super) fn off_unit_quadric<'a>(curves: impl IntoIterator<Item = &'a CanalCurve>) -> f64 {
-    let along = |curve: &'a CanalCurve| (0..=256).filter_map(|i| curve.at(f64::from(i) / 256.0).sphere());
-    curves.into_iter().flat_map(along).map(|sphere| (sphere.vector().square() - 1.0).abs()).fold(0.0, f64::max)
+    let along = |curve: &'a CanalCurve| (0..=256).map(|i| curve.at(f64::from(i) / 256.0).value());
+    let members = curves.into_iter().flat_map(along);
+    members
+        .map(|b| (b.weighted.square() - b.weight * b.weight).abs())
+        .fold(0.0, f64::max)
 }
 
 /// The outline of the body in the plane of symmetry y = 0, as a closed polygon in x and z: up one side from the tip of
@@ -66,7 +77,9 @@ pub(super) fn silhouette(chain: &CanalChain, steps: usize) -> Result<Vec<DVec2>>
 /// Pairs of edges of a closed polygon that cross, neighbours apart.
 pub(super) fn self_intersections(polygon: &[DVec2]) -> u32 {
     let count = polygon.len();
-    let edges: Vec<[DVec2; 2]> = (0..count).map(|i| [polygon[i], polygon[(i + 1) % count]]).collect();
+    let edges: Vec<[DVec2; 2]> = (0..count)
+        .map(|i| [polygon[i], polygon[(i + 1) % count]])
+        .collect();
     let mut crossings = 0;
     for (i, &[a, b]) in edges.iter().enumerate() {
         let (low, high) = (a.min(b), a.max(b));

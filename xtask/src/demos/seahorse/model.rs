@@ -5,7 +5,10 @@ use std::f64::consts::TAU;
 use anyhow::{Context as _, Result, ensure};
 use glam::{DAffine3, DMat3, DVec3};
 use lorentz::construct::{circle_to_point, circle_to_sphere, cone_between_radii};
-use lorentz::{CanalChain, CanalCurve, LorentzMap, Pencil, Plane, Point, Sphere, SphereVector};
+use lorentz::{
+    CanalChain, CanalCurve, CharacteristicCircle, LorentzMap, Pencil, Plane, Point, Sphere,
+    SphereVector,
+};
 use serde::Deserialize;
 
 use crate::mesh::{Mesh, chord_steps};
@@ -80,7 +83,11 @@ impl Seahorse {
         Ok(Self {
             body: body(design)?,
             fin: cone_between_radii(fin.vertex.into(), fin.sphere.sphere()?, fin.radii)?.curve,
-            eyes: design.eyes.iter().map(|eye| eye.sphere()).collect::<Result<_>>()?,
+            eyes: design
+                .eyes
+                .iter()
+                .map(|eye| eye.sphere())
+                .collect::<Result<_>>()?,
             coronet: DAffine3::from_translation(coronet.centre.into())
                 * DAffine3::from_scale(coronet.semi_axes.into()),
         })
@@ -89,10 +96,17 @@ impl Seahorse {
     /// The mirror image in a plane: every curve of spheres mapped by a reflection of the Lorentz space.
     pub(super) fn mirrored(&self, plane: Plane) -> Result<Self> {
         let map = LorentzMap::inversion(plane.into());
-        let body = self.body.arcs().iter().map(|arc| arc.mapped(&map)).collect::<Result<_, _>>()?;
+        let body = self
+            .body
+            .arcs()
+            .iter()
+            .map(|arc| arc.mapped(&map))
+            .collect::<Result<_, _>>()?;
         let mirror = |sphere: &Sphere| -> Result<Sphere> {
             let image = map.map_sphere((*sphere).into()).object()?;
-            image.sphere().context("the mirror image of a sphere is a sphere")
+            image
+                .sphere()
+                .context("the mirror image of a sphere is a sphere")
         };
         let n = plane.normal();
         let reflection = DMat3::IDENTITY - 2.0 * DMat3::from_cols(n * n.x, n * n.y, n * n.z);
@@ -100,8 +114,29 @@ impl Seahorse {
             body: CanalChain::new(body)?,
             fin: self.fin.mapped(&map)?,
             eyes: self.eyes.iter().map(mirror).collect::<Result<_>>()?,
-            coronet: DAffine3::from_mat3_translation(reflection, 2.0 * plane.offset() * n) * self.coronet,
+            coronet: DAffine3::from_mat3_translation(reflection, 2.0 * plane.offset() * n)
+                * self.coronet,
         })
+    }
+
+    /// The direction in which the snout points, level.
+    pub(super) fn forward(&self) -> DVec3 {
+        let ends = self
+            .body
+            .arcs()
+            .last()
+            .map(|arc| [0.0, 1.0].map(|t| arc.at(t).circle()));
+        match ends {
+            Some(
+                [
+                    Ok(CharacteristicCircle::Circle(from)),
+                    Ok(CharacteristicCircle::Circle(to)),
+                ],
+            ) => (to.centre() - from.centre())
+                .with_z(0.0)
+                .normalize_or(DVec3::NEG_X),
+            _ => DVec3::NEG_X,
+        }
     }
 
     /// The whole body as one mesh, with the snout and the end of the fin closed by caps of their last spheres.
@@ -146,7 +181,11 @@ fn body(design: &Design) -> Result<CanalChain> {
     for ball in &design.spheres {
         let next = SphereVector::from(ball.sphere()?);
         let arc = circle_to_sphere(sphere, derivative, next)?;
-        ensure!(arc.is_good_joint(), "the arc to the sphere about {:?} passes a singular point", ball.centre);
+        ensure!(
+            arc.is_good_joint(),
+            "the arc to the sphere about {:?} passes a singular point",
+            ball.centre
+        );
         derivative = arc.curve.at(1.0).derivative_sphere().unwrap_or(derivative);
         sphere = next;
         arcs.push(arc.curve);
@@ -163,6 +202,9 @@ fn disc(curve: &CanalCurve, tolerance: f64) -> Result<Mesh> {
     let steps = chord_steps(circle.radius(), TAU * circle.radius(), tolerance);
     Ok(Mesh::grid(steps, 1, |turn, out| {
         let (sin, cos) = (TAU * turn).sin_cos();
-        (circle.centre() + out * circle.radius() * (cos * u + sin * v), circle.axis())
+        (
+            circle.centre() + out * circle.radius() * (cos * u + sin * v),
+            circle.axis(),
+        )
     }))
 }
