@@ -1,6 +1,7 @@
 //! Rational biquadratic patches by value.
 
 use crate::curve::position_at;
+use crate::mass_point::CLEAR_WEIGHT;
 use crate::{
     BezierPatch, Error, Homography, MassPoint, Parameter, PatchJet, Quadratic, VectorSpace,
     bernstein,
@@ -27,6 +28,8 @@ use glam::DVec3;
 )]
 pub struct Biquadratic<V> {
     control: [[MassPoint<V>; 3]; 3],
+    /// A weight above this is clear of the rounding error of the Bernstein sum in the unit square.
+    clear_weight: f64,
 }
 
 impl<V: VectorSpace> Biquadratic<V> {
@@ -38,7 +41,16 @@ impl<V: VectorSpace> Biquadratic<V> {
         for &mass_point in control.iter().flatten() {
             mass_point.checked()?;
         }
-        Ok(Self { control })
+        Ok(Self::from_checked(control))
+    }
+
+    /// The patch with control mass points that are known to be finite.
+    fn from_checked(control: [[MassPoint<V>; 3]; 3]) -> Self {
+        let weights = control.iter().flatten().map(|h| h.weight.abs());
+        Self {
+            control,
+            clear_weight: CLEAR_WEIGHT * weights.fold(0.0, f64::max),
+        }
     }
 
     /// The control mass points, `control[i][j]` for `B_i(u) B_j(v)`.
@@ -53,20 +65,36 @@ impl<V: VectorSpace> Biquadratic<V> {
     #[must_use]
     pub fn at(&self, u: f64, v: f64) -> MassPoint<V> {
         let (b, c) = (bernstein::quadratic_basis(u), bernstein::quadratic_basis(v));
-        let row = |h: [MassPoint<V>; 3]| h[0] * c[0] + h[1] * c[1] + h[2] * c[2];
-        let [r0, r1, r2] = self.control.map(row);
-        (r0 * b[0] + r1 * b[1] + r2 * b[2]).settled(self.weight_terms(b, c))
+        let [r0, r1, r2] = &self.control;
+        let row = |h: &[MassPoint<V>; 3], b: f64| {
+            h[0] * (b * c[0]) + h[1] * (b * c[1]) + h[2] * (b * c[2])
+        };
+        let mut value = row(r0, b[0]) + row(r1, b[1]) + row(r2, b[2]);
+        if !self.is_clear(value.weight, u, v) {
+            value.weight = self.settled_weight(value.weight, u, v);
+        }
+        value
     }
 
-    /// The absolute terms of the weight's Bernstein sum, which bound its rounding error.
+    /// Whether a weight computed at `(u, v)` is far above its rounding error.
     #[inline]
-    fn weight_terms(&self, b: [f64; 3], c: [f64; 3]) -> f64 {
-        let [c0, c1, c2] = c.map(f64::abs);
-        let row = |h: [MassPoint<V>; 3]| {
-            c0 * h[0].weight.abs() + c1 * h[1].weight.abs() + c2 * h[2].weight.abs()
-        };
-        let [r0, r1, r2] = self.control.map(row);
-        r0 * b[0] + r1 * b[1].abs() + r2 * b[2]
+    pub(crate) fn is_clear(&self, weight: f64, u: f64, v: f64) -> bool {
+        let inside = (u >= 0.0) & (u <= 1.0) & (v >= 0.0) & (v <= 1.0);
+        (weight.abs() > self.clear_weight) & inside
+    }
+
+    /// The weight at `(u, v)`, zero if it is no more than the rounding error of its Bernstein sum.
+    #[cold]
+    #[inline(never)]
+    fn settled_weight(&self, weight: f64, u: f64, v: f64) -> f64 {
+        let [b, c] = [u, v].map(|t| bernstein::quadratic_basis(t).map(f64::abs));
+        let terms: f64 = (0..3)
+            .flat_map(|i| (0..3).map(move |j| (i, j)))
+            .map(|(i, j)| b[i] * c[j] * self.control[i][j].weight.abs())
+            .sum();
+        MassPoint::from_homogeneous(weight, V::ZERO)
+            .settled(terms)
+            .weight
     }
 
     /// The position at `(u, v)`.
@@ -127,26 +155,20 @@ impl<V: VectorSpace> Biquadratic<V> {
     #[must_use]
     pub fn transposed(&self) -> Self {
         let h = &self.control;
-        Self {
-            control: [0, 1, 2].map(|j| [h[0][j], h[1][j], h[2][j]]),
-        }
+        Self::from_checked([0, 1, 2].map(|j| [h[0][j], h[1][j], h[2][j]]))
     }
 
     /// The patch run backwards in `u`. Its normal changes side.
     #[must_use]
     pub fn reversed_u(&self) -> Self {
         let [r0, r1, r2] = self.control;
-        Self {
-            control: [r2, r1, r0],
-        }
+        Self::from_checked([r2, r1, r0])
     }
 
     /// The patch run backwards in `v`. Its normal changes side.
     #[must_use]
     pub fn reversed_v(&self) -> Self {
-        Self {
-            control: self.control.map(|[h0, h1, h2]| [h2, h1, h0]),
-        }
+        Self::from_checked(self.control.map(|[h0, h1, h2]| [h2, h1, h0]))
     }
 
     /// The patch after a homographic change of each parameter.
@@ -154,14 +176,12 @@ impl<V: VectorSpace> Biquadratic<V> {
     pub fn reparametrised(&self, u: Homography, v: Homography) -> Self {
         let along_v = |row| *Quadratic::from_checked(row).reparametrised(v).control();
         let along_u = |column| *Quadratic::from_checked(column).reparametrised(u).control();
-        Self {
-            control: Self {
-                control: self.control.map(along_v),
-            }
-            .transposed()
-            .control
-            .map(along_u),
-        }
+        Self::from_checked(
+            Self::from_checked(self.control.map(along_v))
+                .transposed()
+                .control
+                .map(along_u),
+        )
         .transposed()
     }
 
@@ -192,12 +212,8 @@ impl<V: VectorSpace> Biquadratic<V> {
             .control
             .map(|row| Quadratic::from_checked(row).subdivide(v));
         (
-            Self {
-                control: parts.map(|(below, _)| *below.control()),
-            },
-            Self {
-                control: parts.map(|(_, above)| *above.control()),
-            },
+            Self::from_checked(parts.map(|(below, _)| *below.control())),
+            Self::from_checked(parts.map(|(_, above)| *above.control())),
         )
     }
 
@@ -260,9 +276,9 @@ impl<V: VectorSpace> TryFrom<&BezierPatch<V>> for Biquadratic<V> {
             needed: 9,
         };
         match raised.control().as_chunks::<3>() {
-            ([r0, r1, r2], []) if raised.degrees() == [2, 2] => Ok(Self {
-                control: [*r0, *r1, *r2],
-            }),
+            ([r0, r1, r2], []) if raised.degrees() == [2, 2] => {
+                Ok(Self::from_checked([*r0, *r1, *r2]))
+            }
             _ => Err(wrong),
         }
     }

@@ -90,20 +90,7 @@ impl<V: VectorSpace> BSplineCurve<V> {
     /// Outside the domain a periodic spline repeats itself, any other is continued by its first and last piece.
     #[must_use]
     pub fn at(&self, t: f64) -> MassPoint<V> {
-        self.settled(self.knots.evaluate(&self.control, t), t)
-    }
-
-    /// The value at `t` with a weight that is rounding error set to zero.
-    fn settled(&self, value: MassPoint<V>, t: f64) -> MassPoint<V> {
-        let largest = self
-            .control
-            .iter()
-            .fold(0.0, |largest: f64, h| largest.max(h.weight.abs()));
-        if value.weight.abs() > 1e-6 * largest {
-            return value;
-        }
-        let weights: Vec<f64> = self.control.iter().map(|h| h.weight).collect();
-        value.settled(self.knots.absolute_terms(&weights, t))
+        self.knots.mass_point(&self.control, t)
     }
 
     /// The position at `t`.
@@ -117,9 +104,9 @@ impl<V: VectorSpace> BSplineCurve<V> {
     /// Value, first and second derivative at `t` as mass points (at a knot: of the piece that begins there).
     #[must_use]
     pub fn jet(&self, t: f64) -> CurveJet<V> {
-        let [value, first, second] = self.knots.jet(&self.control, t);
+        let [_, first, second] = self.knots.jet(&self.control, t);
         CurveJet {
-            value: self.settled(value, t),
+            value: self.at(t),
             first,
             second,
         }

@@ -1,5 +1,6 @@
 //! Rational Bézier curves of any degree.
 
+use crate::mass_point::is_clear;
 use crate::{CurveJet, Error, Homography, MassPoint, Parameter, VectorSpace, bernstein};
 
 /// A rational Bézier curve of any degree whose control points are mass points.
@@ -80,7 +81,12 @@ impl<V: VectorSpace> BezierCurve<V> {
     /// `t` may be any number, also outside `[0, 1]`; NaN gives a mass point without position.
     #[must_use]
     pub fn at(&self, t: f64) -> MassPoint<V> {
-        bernstein::evaluate(&self.control, t).settled(self.weight_terms([1.0 - t, t]))
+        let value = bernstein::evaluate(&self.control, t);
+        if (0.0..=1.0).contains(&t) && is_clear(value.weight, &self.control) {
+            value
+        } else {
+            value.settled(self.weight_terms([1.0 - t, t]))
+        }
     }
 
     /// The mass point at a projective parameter, which may be infinite. Its weight carries the factor
@@ -198,7 +204,11 @@ impl<V: VectorSpace> BezierCurve<V> {
     /// de Casteljau's subdivision at `t` into the two parts; no weight is divided out.
     #[must_use]
     pub fn subdivide(&self, t: f64) -> (Self, Self) {
-        let (left, right) = bernstein::subdivide(&self.control, t);
+        let (mut left, mut right) = bernstein::subdivide(&self.control, t);
+        let split = self.at(t);
+        if let (Some(end), Some(start)) = (left.last_mut(), right.first_mut()) {
+            (*end, *start) = (split, split);
+        }
         (Self { control: left }, Self { control: right })
     }
 
@@ -254,10 +264,11 @@ impl<V> From<BezierCurve<V>> for Vec<MassPoint<V>> {
 
 /// The position of the value at `t`, or why there is none.
 pub(crate) fn position_at<V: VectorSpace>(value: MassPoint<V>, t: f64) -> Result<V, Error> {
-    if !t.is_finite() {
-        return Err(Error::NonFinite { what: "parameter" });
-    }
-    value.position().ok_or(Error::AtInfinity { t })
+    value.position().ok_or(if t.is_finite() {
+        Error::AtInfinity { t }
+    } else {
+        Error::NonFinite { what: "parameter" }
+    })
 }
 
 /// A moment of mass points of this size is rounding error: each product carries a unit in the last place of

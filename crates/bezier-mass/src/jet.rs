@@ -157,8 +157,7 @@ impl PatchJet<DVec3> {
 }
 
 /// The unit normal of the plane through `[h, h_u, h_v]` on the side of `P_u x P_v`.
-#[inline]
-pub(crate) fn unit_normal([value, du, dv]: [MassPoint<DVec3>; 3]) -> Option<DVec3> {
+fn unit_normal([value, du, dv]: [MassPoint<DVec3>; 3]) -> Option<DVec3> {
     oriented(
         plane_normal(value, du, dv),
         value.weight,
@@ -168,7 +167,6 @@ pub(crate) fn unit_normal([value, du, dv]: [MassPoint<DVec3>; 3]) -> Option<DVec
 
 /// A multiple of the normal made a unit vector on the side of `P_u x P_v`; `None` if it is rounding error of terms of
 /// the size given.
-#[inline]
 fn oriented(normal: DVec3, weight: f64, size: f64) -> Option<DVec3> {
     let length = normal.length();
     let reached = length > NORMAL_ROUNDING * size && length.is_finite();
@@ -176,7 +174,6 @@ fn oriented(normal: DVec3, weight: f64, size: f64) -> Option<DVec3> {
 }
 
 /// The normal of the plane through three mass points: the Euclidean part of their exterior product.
-#[inline]
 fn plane_normal(a: MassPoint<DVec3>, b: MassPoint<DVec3>, c: MassPoint<DVec3>) -> DVec3 {
     b.weighted.cross(c.weighted) * a.weight
         + c.weighted.cross(a.weighted) * b.weight
@@ -184,7 +181,6 @@ fn plane_normal(a: MassPoint<DVec3>, b: MassPoint<DVec3>, c: MassPoint<DVec3>) -
 }
 
 /// The size of the terms of [`plane_normal`].
-#[inline]
 fn plane_size(a: MassPoint<DVec3>, b: MassPoint<DVec3>, c: MassPoint<DVec3>) -> f64 {
     let [x, y, z] = [a, b, c].map(|h| h.weighted.magnitude());
     a.weight.abs() * y * z + b.weight.abs() * z * x + c.weight.abs() * x * y

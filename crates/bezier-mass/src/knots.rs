@@ -1,6 +1,7 @@
 //! Knot vectors, and de Boor's algorithm on coefficients in any vector space.
 
-use crate::{Error, VectorSpace};
+use crate::mass_point::CLEAR_WEIGHT;
+use crate::{Error, MassPoint, VectorSpace};
 
 /// A knot vector with its degree: the spline space that control points are given in.
 ///
@@ -243,23 +244,33 @@ impl Knots {
     pub(crate) fn evaluate<V: VectorSpace>(&self, coefficients: &[V], t: f64) -> V {
         let t = self.reduced(t);
         let s = self.span(t);
-        let at_t = core::iter::repeat_n(t, self.degree);
-        self.blossom(s, self.local(coefficients, s), at_t, V::lerp)
-            .unwrap_or(V::ZERO)
+        self.evaluate_on(s, self.local(coefficients, s), t)
     }
 
-    /// The sum of the absolute terms of the value at `t`, which bounds its rounding error.
-    pub(crate) fn absolute_terms(&self, coefficients: &[f64], t: f64) -> f64 {
+    fn evaluate_on<V: VectorSpace>(&self, s: usize, local: Vec<V>, t: f64) -> V {
+        let at_t = core::iter::repeat_n(t, self.degree);
+        self.blossom(s, local, at_t, V::lerp).unwrap_or(V::ZERO)
+    }
+
+    /// The value of mass points at `t`, with a weight that is rounding error set to zero.
+    pub(crate) fn mass_point<V: VectorSpace>(
+        &self,
+        control: &[MassPoint<V>],
+        t: f64,
+    ) -> MassPoint<V> {
         let t = self.reduced(t);
         let s = self.span(t);
-        let local = self
-            .local(coefficients, s)
-            .iter()
-            .map(|x| x.abs())
-            .collect();
+        let local = self.local(control, s);
+        let weights: Vec<f64> = local.iter().map(|h| h.weight.abs()).collect();
+        let clear = CLEAR_WEIGHT * weights.iter().copied().fold(0.0, f64::max);
+        let value = self.evaluate_on(s, local, t);
+        let [start, end] = self.domain();
+        if value.weight.abs() > clear && (start..=end).contains(&t) {
+            return value;
+        }
         let mix = |a: f64, b: f64, share: f64| a * (1.0 - share).abs() + b * share.abs();
-        self.blossom(s, local, core::iter::repeat_n(t, self.degree), mix)
-            .unwrap_or(0.0)
+        let terms = self.blossom(s, weights, core::iter::repeat_n(t, self.degree), mix);
+        value.settled(terms.unwrap_or(0.0))
     }
 
     /// The value, first and second derivative at `t`.
@@ -268,10 +279,7 @@ impl Knots {
         let s = self.span(t);
         let mut local = self.local(coefficients, s);
         [0, 1, 2].map(|_| {
-            let at_t = core::iter::repeat_n(t, self.degree);
-            let value = self
-                .blossom(s, local.clone(), at_t, V::lerp)
-                .unwrap_or(V::ZERO);
+            let value = self.evaluate_on(s, local.clone(), t);
             local = self.local_derivative(s, &local);
             value
         })

@@ -171,6 +171,19 @@ impl<V: VectorSpace> MassPoint<V> {
 /// a weight of that size has no correct digit at any degree.
 pub(crate) const WEIGHT_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
+/// Weights above this fraction of the largest control weight are ten decades clear of the rounding error of an affine
+/// combination, and need no closer look.
+pub(crate) const CLEAR_WEIGHT: f64 = 1e-6;
+
+/// Whether a weight that is an affine combination, with shares from 0 to 1, of the weights of `control` is far above its
+/// rounding error.
+pub(crate) fn is_clear<V: VectorSpace>(weight: f64, control: &[MassPoint<V>]) -> bool {
+    let largest = control
+        .iter()
+        .fold(0.0, |largest: f64, h| largest.max(h.weight.abs()));
+    weight.abs() > CLEAR_WEIGHT * largest
+}
+
 impl<V: VectorSpace> VectorSpace for MassPoint<V> {
     const ZERO: Self = Self {
         weight: 0.0,

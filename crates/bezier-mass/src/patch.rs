@@ -1,6 +1,7 @@
 //! Tensor-product rational patches of any bidegree.
 
 use crate::curve::position_at;
+use crate::mass_point::is_clear;
 use crate::{
     BezierCurve, Error, Homography, MassPoint, Parameter, PatchJet, VectorSpace, bernstein,
 };
@@ -123,28 +124,35 @@ impl<V: VectorSpace> BezierPatch<V> {
     /// The mass point at `(u, v)`: a point, or a vector where the weight vanishes to rounding. Does not allocate.
     #[must_use]
     pub fn at(&self, u: f64, v: f64) -> MassPoint<V> {
-        let value =
-            bernstein::evaluate_terms(self.rows().map(|row| bernstein::evaluate(row, v)), u);
-        value.settled(self.weight_terms(u, v, value.weight))
+        let rows = self.rows().map(|row| bernstein::evaluate(row, v));
+        let value = bernstein::evaluate_terms(rows, u);
+        if self.is_clear(value.weight, u, v) {
+            value
+        } else {
+            value.settled(self.weight_terms(u, v))
+        }
     }
 
-    /// The absolute terms of the weight's Bernstein sum, which bound its rounding error; or zero if `weight` is far
-    /// too large for that to matter.
-    fn weight_terms(&self, u: f64, v: f64, weight: f64) -> f64 {
-        let reach = |t: f64, degree: usize| ((1.0 - t).abs() + t.abs()).powi(degree as i32);
-        let largest = self
-            .control
-            .iter()
-            .fold(0.0, |largest: f64, h| largest.max(h.weight.abs()));
-        if weight.abs() > 1e-6 * largest * reach(u, self.degrees[0]) * reach(v, self.degrees[1]) {
-            return 0.0;
-        }
-        let [b, c] = [(self.degrees[0], u), (self.degrees[1], v)]
-            .map(|(degree, t)| bernstein::basis(degree, t));
-        let row = |row: &[MassPoint<V>]| -> f64 {
-            row.iter().zip(&c).map(|(h, c)| (h.weight * c).abs()).sum()
+    /// Whether a weight computed at `(u, v)` is far above its rounding error.
+    pub(crate) fn is_clear(&self, weight: f64, u: f64, v: f64) -> bool {
+        let unit = 0.0..=1.0;
+        unit.contains(&u) && unit.contains(&v) && is_clear(weight, &self.control)
+    }
+
+    /// The absolute terms of the weight's Bernstein sum, which bound its rounding error.
+    fn weight_terms(&self, u: f64, v: f64) -> f64 {
+        let absolute = |t: f64, degree: usize| {
+            bernstein::basis(degree, t)
+                .into_iter()
+                .map(f64::abs)
+                .collect()
         };
-        self.rows().zip(&b).map(|(h, b)| b.abs() * row(h)).sum()
+        let (b, c): (Vec<f64>, Vec<f64>) =
+            (absolute(u, self.degrees[0]), absolute(v, self.degrees[1]));
+        let row = |row: &[MassPoint<V>]| -> f64 {
+            row.iter().zip(&c).map(|(h, c)| h.weight.abs() * c).sum()
+        };
+        self.rows().zip(&b).map(|(h, b)| b * row(h)).sum()
     }
 
     /// The position at `(u, v)`.
