@@ -1,1 +1,37 @@
 //! Dupin cyclides of every type, their exact rational patches, and the blending of cones
+//!
+//! (front page to be written last)
+
+mod blend;
+mod circle;
+mod classify;
+mod cone;
+mod distance;
+mod dupin;
+mod error;
+mod family;
+mod frame;
+mod kind;
+mod parabolic;
+mod patch;
+mod quartic;
+mod recognise;
+mod spheres;
+pub mod tolerance;
+
+pub use blend::{Blend, Contact, ContactFamily, contact_residual};
+pub use circle::CurvatureCircle;
+pub use classify::{Class, Classification, DoubleLine, Obstacle, classify};
+pub use cone::{Cone, SphereLine};
+pub use distance::Closest;
+pub use dupin::Dupin;
+pub use error::Error;
+pub use family::{Conic, Diagonal, Family, TypeInterval};
+pub use frame::Frame;
+pub use kind::Kind;
+pub use parabolic::Parabolic;
+pub use patch::{CyclidePatch, normalise};
+pub use quartic::Quartic;
+pub use recognise::{Condition, NetReport, inspect, solve_weights};
+
+pub use glam; // its types appear in our signatures

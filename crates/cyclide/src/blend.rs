@@ -1,0 +1,334 @@
+//! One blend: the cyclide that touches two cones at a given member of a family.
+
+use crate::family::{Conic, Structure};
+use crate::spheres::MovingSphere;
+use crate::{Cone, CurvatureCircle, Dupin, Error, Family, Frame, Kind, Parabolic, Quartic, SphereLine, tolerance};
+use glam::DVec3;
+use lorentz::Cycle;
+
+/// Which lines of curvature of the surface touch the cones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum ContactFamily {
+    /// Circles `theta = const` of a quartic.
+    Theta,
+    /// Circles `psi = const` of a quartic.
+    Psi,
+    /// Circles `u = const` of a parabolic cyclide.
+    U,
+    /// Circles `v = const` of a parabolic cyclide.
+    V,
+}
+
+/// The circle along which the surface touches one of the cones.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Contact {
+    /// The circle, world coordinates; its axis is that of the cone as given.
+    pub circle: CurvatureCircle,
+    /// The sphere that touches cone and surface along it, oriented like the line of spheres of the family.
+    pub sphere: Cycle,
+    /// The parameter of the circle on the surface: `theta`, `psi`, `u` or `v`.
+    pub parameter: f64,
+}
+
+/// A cyclide that touches two cones along one circle each: tangent planes agree all along (G1).
+///
+/// Made by [`Family::blend`]; how far it is from touching, by rounding, is [`Blend::residual`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Blend {
+    surface: Dupin,
+    family: Family,
+    parameter: f64,
+    contacts: [Contact; 2],
+    contact_family: ContactFamily,
+    residual: f64,
+}
+
+impl Blend {
+    /// The surface.
+    #[must_use]
+    pub const fn surface(&self) -> &Dupin {
+        &self.surface
+    }
+
+    /// The family it belongs to.
+    #[must_use]
+    pub const fn family(&self) -> &Family {
+        &self.family
+    }
+
+    /// Its parameter in the family.
+    #[must_use]
+    pub const fn parameter(&self) -> f64 {
+        self.parameter
+    }
+
+    /// The type, decided for numbers that were computed.
+    #[must_use]
+    pub fn kind(&self) -> Kind {
+        self.surface.kind_within(tolerance::RECOVERED_KIND)
+    }
+
+    /// The circles of contact with the first and the second cone.
+    #[must_use]
+    pub const fn contacts(&self) -> &[Contact; 2] {
+        &self.contacts
+    }
+
+    /// Which lines of curvature these are.
+    #[must_use]
+    pub const fn contact_family(&self) -> ContactFamily {
+        self.contact_family
+    }
+
+    /// Shene's point `X` on the diagonal; `None` at infinity and for cones on one axis.
+    #[must_use]
+    pub fn diagonal_point(&self) -> Option<DVec3> {
+        if self.family.one_axis { None } else { self.family.diagonal_point_of(self.parameter).position() }
+    }
+
+    /// The larger of the two G1 residuals: how far, relative to the size of the contact spheres, each contact sphere and the tangent of
+    /// its line are from the conic of the surface and its tangent. Zero exactly if the tangent planes agree along both circles.
+    #[must_use]
+    pub const fn residual(&self) -> f64 {
+        self.residual
+    }
+
+    /// Whether a tube between the two circles can be used: no singular point of the surface lies on a contact circle.
+    #[must_use]
+    pub fn is_usable(&self) -> bool {
+        match (self.contact_family, self.kind()) {
+            (ContactFamily::Theta, kind) => !matches!(
+                kind,
+                Kind::OneSingularitySpindle | Kind::TwoSingularitySpindle | Kind::HornTorus | Kind::SpindleTorus
+            ),
+            (ContactFamily::Psi, kind) => !matches!(kind, Kind::SinglyHorned | Kind::DoublyHorned),
+            (ContactFamily::U, kind) => kind == Kind::ParabolicRing,
+            (ContactFamily::V, _) => true,
+        }
+    }
+
+    /// Whether both contact circles lie on the same nappes as the common inscribed sphere, so that only one nappe of each cone
+    /// is used. For parallel axes: whether both contact spheres have radii of the orientation's sign.
+    #[must_use]
+    pub fn is_single_nappe(&self) -> bool {
+        let [first, second] = self.contacts.map(|contact| contact.sphere.radius);
+        match self.family.structure {
+            Structure::Meet { sphere, .. } if sphere.radius != 0.0 => {
+                first * sphere.radius > 0.0 && second * sphere.radius > 0.0
+            }
+            // A common vertex or parallel axes: no sphere to compare with, so the nappes of positive radius.
+            _ => first > 0.0 && second * f64::from(self.family.orientation) > 0.0,
+        }
+    }
+
+    /// The principal circles in the axial plane: those that pass through the ends of both contact circles. The second is a line, and
+    /// so not given, if the surface is cubic.
+    #[must_use]
+    pub fn principal_circles(&self) -> [Option<CurvatureCircle>; 2] {
+        use std::f64::consts::PI;
+        match (&self.surface, self.contact_family) {
+            (Dupin::Quartic(surface), ContactFamily::Theta) => [Some(surface.psi_circle(0.0)), Some(surface.psi_circle(PI))],
+            (Dupin::Quartic(surface), _) => [Some(surface.theta_circle(0.0)), Some(surface.theta_circle(PI))],
+            (Dupin::Parabolic(surface), ContactFamily::U) => [Some(surface.v_circle(0.0)), None],
+            (Dupin::Parabolic(surface), _) => [Some(surface.u_circle(0.0)), None],
+        }
+    }
+
+    /// The largest distance of `samples` points of each contact circle from the surface, relative to the circle's sphere, and the largest angle
+    /// (radians) between the normals of cone and surface there. A measurement that knows nothing of the construction.
+    #[must_use]
+    pub fn sampled_error(&self, samples: u32) -> (f64, f64) {
+        let mut worst = (0.0_f64, 0.0_f64);
+        for (contact, line) in self.contacts.iter().zip(&self.family.lines) {
+            let start = contact.circle.axis.any_orthonormal_vector();
+            let across = contact.circle.axis.cross(start);
+            for index in 0..samples {
+                let (sin, cos) = (std::f64::consts::TAU * f64::from(index) / f64::from(samples)).sin_cos();
+                let cone_normal = -line.sin * line.axis + line.cos * (cos * start + sin * across);
+                let point = contact.sphere.point_with_normal(cone_normal);
+                let Ok(nearest) = self.surface.closest(point) else { continue };
+                let distance = nearest.distance.abs() / contact.sphere.radius.abs();
+                let angle = cone_normal.cross(nearest.normal).length().atan2(cone_normal.dot(nearest.normal).abs());
+                worst = (worst.0.max(distance), worst.1.max(angle));
+            }
+        }
+        worst
+    }
+}
+
+/// The member of a family at a parameter, for finite parameters other than that of the common sphere.
+pub(crate) fn member(family: &Family, parameter: f64) -> Result<Blend, Error> {
+    let spheres = family.contact_spheres(parameter);
+    let (surface, contact_family) = match (family.structure, family.conic) {
+        (Structure::Meet { sphere, pairing, .. }, Conic::Parabola) => cubic(family, sphere, f64::from(pairing), parameter)?,
+        (Structure::Meet { sphere, pairing, product }, conic) => {
+            let pairing = f64::from(pairing);
+            let directions = family.lines.map(|line| line.direction());
+            let mean = sphere + (directions[0] + directions[1] * pairing) * (parameter / (1.0 + pairing * product));
+            let b = parameter.abs() * ((1.0 - pairing * product) / (1.0 + pairing * product)).abs().sqrt();
+            quartic(family, conic, mean, b, directions)?
+        }
+        (Structure::Parallel { step, square }, conic) => {
+            let mean = (spheres[0] + spheres[1]) * 0.5;
+            quartic(family, conic, mean, square.abs().sqrt() / 2.0, [family.lines[0].direction(), step])?
+        }
+    };
+    let mut residual = 0.0_f64;
+    let size = spheres.iter().fold(spheres[0].centre.distance(spheres[1].centre), |size, sphere| size.max(sphere.radius.abs()));
+    let contact = |sphere: Cycle, line: &SphereLine, residual: &mut f64| {
+        let parameter = contact_parameter(&surface.dupin, contact_family, sphere, surface.reversed);
+        let moving = moving_sphere(&surface.dupin, contact_family, parameter);
+        *residual = residual.max(tangency_residual(moving, sphere, line, size));
+        Contact { circle: line.contact_circle(sphere), sphere, parameter }
+    };
+    let [first, second] = &family.lines;
+    let contacts = [contact(spheres[0], first, &mut residual), contact(spheres[1], second, &mut residual)];
+    if !(residual <= tolerance::BLEND) {
+        return Err(Error::NotTangent { residual, allowed: tolerance::BLEND });
+    }
+    Ok(Blend { surface: surface.dupin, family: *family, parameter, contacts, contact_family, residual })
+}
+
+/// A surface and whether its normals are opposite to the orientation of the family's lines.
+struct Oriented {
+    dupin: Dupin,
+    reversed: bool,
+}
+
+/// A quartic from its mean sphere `(O; mu)`, the half axis `b`, and two vectors that span the plane of its conic.
+fn quartic(
+    family: &Family,
+    conic: Conic,
+    mean: Cycle,
+    b: f64,
+    [first, second]: [Cycle; 2],
+) -> Result<(Oriented, ContactFamily), Error> {
+    let contact_family = if conic == Conic::Ellipse { ContactFamily::Theta } else { ContactFamily::Psi };
+    let reversed = mean.radius < 0.0;
+    let frame_of = |x: DVec3, y: DVec3| Frame::from_directions(mean.centre, x, y).ok_or(Error::Collapsed { parameter: b });
+    let done = |surface: Quartic| Ok((Oriented { dupin: Dupin::Quartic(surface), reversed }, contact_family));
+
+    if family.one_axis {
+        // A torus about the common axis.
+        let axis = family.lines[0].axis;
+        let x = family.plane_normal.cross(axis);
+        return done(Quartic::with_half_axes([b, b, 0.0], mean.radius, frame_of(x, axis.cross(x))?)?);
+    }
+    // The direction of the plane without change of radius lies along y (ellipse) or z (hyperbola); the unit vector orthogonal to it
+    // is (a x; -c)/b or (c x; -a)/b.
+    let level = second.radius * first.centre - first.radius * second.centre;
+    let Some(level) = level.try_normalize() else {
+        // Two cylinders: all spheres of the conic have one radius, a torus about the normal of the axial plane.
+        let x = first.centre;
+        return done(Quartic::with_half_axes([b, b, 0.0], mean.radius, frame_of(x, family.plane_normal.cross(x))?)?);
+    };
+    let orthogonal = [first, second]
+        .map(|vector| Cycle::new(vector.centre - vector.centre.dot(level) * level, vector.radius))
+        .into_iter()
+        .max_by(|v, w| norm(*v).total_cmp(&norm(*w)))
+        .unwrap_or_default();
+    let length = orthogonal.square().abs().sqrt();
+    let unit = orthogonal * (if orthogonal.radius > 0.0 { -1.0 } else { 1.0 } / length);
+    let along_x = unit.centre.length();
+    let surface = match conic {
+        Conic::Ellipse => {
+            let c = -b * unit.radius;
+            Quartic::with_half_axes([c.hypot(b), b, c], mean.radius, frame_of(unit.centre, level)?)?
+        }
+        _ => {
+            let c = b * along_x;
+            // Where c vanishes x is free in the plane orthogonal to the axis z.
+            let x = if along_x > tolerance::EXACT_KIND { unit.centre } else { family.plane_normal.cross(level) };
+            Quartic::with_half_axes([c.hypot(b), b, c], mean.radius, frame_of(x, level.cross(x))?)?
+        }
+    };
+    done(surface)
+}
+
+fn norm(vector: Cycle) -> f64 {
+    vector.centre.length_squared() + vector.radius * vector.radius
+}
+
+/// The parabolic cyclide of two lines whose directions span a plane with the light-like direction `u1 + pairing u2`.
+fn cubic(family: &Family, sphere: Cycle, pairing: f64, t: f64) -> Result<(Oriented, ContactFamily), Error> {
+    let [first, second] = family.lines.map(|line| line.direction());
+    let (across, light_like) = (first - second * pairing, first + second * pairing);
+    let collapsed = Error::Collapsed { parameter: t };
+    let x = (light_like.centre / light_like.radius).try_normalize().ok_or(collapsed)?;
+    let slant = across.radius / light_like.radius;
+    let ordinate_axis = (across.centre - slant * light_like.centre).try_normalize().ok_or(collapsed)?;
+    let vertex = sphere - Cycle::new(ordinate_axis, 0.0) * (t * slant)
+        + Cycle::new(x, 1.0) * (t / 4.0 * light_like.radius * (1.0 - slant * slant));
+    let f = t / light_like.radius;
+    let first_parabola = f > 0.0;
+    // From the vertex sphere (-f/2; f/2 + k) of one parabola or (|f|/2; k - |f|/2) of the other.
+    let (origin, k) = (vertex.centre + x * (f / 2.0), vertex.radius - f / 2.0);
+    // The family of the contact spheres lies in the plane z = 0 (u) or y = 0 (v); reversing x exchanges the two.
+    let reversed = k < 0.0;
+    let x = if reversed { -x } else { x };
+    let is_u = first_parabola != reversed;
+    let y = if is_u { ordinate_axis } else { ordinate_axis.cross(x) };
+    let frame = Frame::from_directions(origin, x, y).ok_or(collapsed)?;
+    let surface = Parabolic::new(f.abs(), k.abs(), frame)?;
+    let contact_family = if is_u { ContactFamily::U } else { ContactFamily::V };
+    Ok((Oriented { dupin: Dupin::Parabolic(surface), reversed }, contact_family))
+}
+
+/// The parameter at which a contact sphere sits on the conic of the surface.
+fn contact_parameter(surface: &Dupin, contact_family: ContactFamily, sphere: Cycle, reversed: bool) -> f64 {
+    let local = surface.frame().point_to_local(sphere.centre);
+    match surface {
+        Dupin::Quartic(surface) if contact_family == ContactFamily::Theta => {
+            (local.y / surface.b()).atan2(local.x / surface.a())
+        }
+        Dupin::Quartic(surface) => {
+            let radius = if reversed { -sphere.radius } else { sphere.radius };
+            let branch = (surface.mu() - radius).signum();
+            (-local.z / surface.b() * branch).atan2(branch)
+        }
+        Dupin::Parabolic(surface) => {
+            let ordinate = if contact_family == ContactFamily::U { local.y } else { local.z };
+            ordinate / (2.0 * surface.f())
+        }
+    }
+}
+
+fn moving_sphere(surface: &Dupin, contact_family: ContactFamily, parameter: f64) -> MovingSphere {
+    match (surface, contact_family) {
+        (Dupin::Quartic(surface), ContactFamily::Theta) => surface.moving_theta_sphere(parameter),
+        (Dupin::Quartic(surface), _) => surface.moving_psi_sphere(parameter),
+        (Dupin::Parabolic(surface), ContactFamily::U) => surface.moving_u_sphere(parameter),
+        (Dupin::Parabolic(surface), _) => surface.moving_v_sphere(parameter),
+    }
+}
+
+/// G1 along a contact circle is the same as two conditions in R^{3,1}: the contact sphere is on the conic of the surface, and the
+/// conic's tangent there is the line of spheres of the cone. Up to one global orientation.
+fn tangency_residual(moving: MovingSphere, sphere: Cycle, line: &SphereLine, size: f64) -> f64 {
+    let position = moving.sphere.centre.distance(sphere.centre) / size;
+    let speed = moving.velocity.centre.length();
+    let direction = moving.velocity.centre.cross(line.axis).length() / speed;
+    let slope = moving.velocity.centre.dot(line.axis) * line.sin;
+    [1.0, -1.0]
+        .map(|sign: f64| {
+            let radius = (moving.sphere.radius - sign * sphere.radius).abs() / size;
+            let rate = (moving.velocity.radius - sign * slope).abs() / norm(moving.velocity).sqrt();
+            position.max(radius).max(direction).max(rate)
+        })
+        .into_iter()
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// The G1 residual of a surface along a circle `parameter` of one of its families against a given cone, as [`Blend::residual`].
+/// For checking blends that were made elsewhere.
+#[must_use]
+pub fn contact_residual(surface: &Dupin, contact_family: ContactFamily, parameter: f64, cone: &Cone) -> f64 {
+    let line = cone.spheres();
+    let moving = moving_sphere(surface, contact_family, parameter);
+    let s = line.foot(moving.sphere.centre);
+    let size = moving.sphere.radius.abs().max(f64::MIN_POSITIVE);
+    tangency_residual(moving, line.at(s), &line, size)
+}
