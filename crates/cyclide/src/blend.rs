@@ -1,8 +1,9 @@
 //! One blend: the cyclide that touches two cones at a given member of a family.
 
 use crate::family::{Conic, Structure};
+use crate::determine::parabolic_from_vertex;
 use crate::spheres::MovingSphere;
-use crate::{Cone, CurvatureCircle, Dupin, Error, Family, Frame, Kind, Parabolic, Quartic, SphereLine, tolerance};
+use crate::{Cone, CurvatureCircle, Dupin, Error, Family, Frame, Kind, Quartic, SphereLine, tolerance};
 use glam::DVec3;
 use lorentz::Cycle;
 
@@ -262,18 +263,8 @@ fn cubic(family: &Family, sphere: Cycle, pairing: f64, t: f64) -> Result<(Orient
     let ordinate_axis = (across.centre - slant * light_like.centre).try_normalize().ok_or(collapsed)?;
     let vertex = sphere - Cycle::new(ordinate_axis, 0.0) * (t * slant)
         + Cycle::new(x, 1.0) * (t / 4.0 * light_like.radius * (1.0 - slant * slant));
-    let f = t / light_like.radius;
-    let first_parabola = f > 0.0;
-    // From the vertex sphere (-f/2; f/2 + k) of one parabola or (|f|/2; k - |f|/2) of the other.
-    let (origin, k) = (vertex.centre + x * (f / 2.0), vertex.radius - f / 2.0);
-    // The family of the contact spheres lies in the plane z = 0 (u) or y = 0 (v); reversing x exchanges the two.
-    let reversed = k < 0.0;
-    let x = if reversed { -x } else { x };
-    let is_u = first_parabola != reversed;
-    let y = if is_u { ordinate_axis } else { ordinate_axis.cross(x) };
-    let frame = Frame::from_directions(origin, x, y).ok_or(collapsed)?;
-    let surface = Parabolic::new(f.abs(), k.abs(), frame)?;
-    let contact_family = if is_u { ContactFamily::U } else { ContactFamily::V };
+    let (surface, is_first_family, reversed) = parabolic_from_vertex(vertex, t / light_like.radius, x, ordinate_axis)?;
+    let contact_family = if is_first_family { ContactFamily::U } else { ContactFamily::V };
     Ok((Oriented { dupin: Dupin::Parabolic(surface), reversed }, contact_family))
 }
 

@@ -1,7 +1,7 @@
 //! The position of two cones: which of Shene's classes it is, why, and the families of blends that follow.
 
 use crate::family::{Conic, Structure};
-use crate::{Cone, Family, SphereLine, tolerance};
+use crate::{Blend, Cone, Error, Family, SphereLine, tolerance};
 use glam::DVec3;
 use lorentz::Cycle;
 use std::fmt;
@@ -136,6 +136,44 @@ impl Classification {
             Class::NotBlendable(obstacle) => Some(obstacle),
             _ => None,
         }
+    }
+
+    /// All members of the point `X` on a diagonal: one of each family whose diagonal passes through it (two for a common vertex, where
+    /// each diagonal serves two families).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotBlendable`] if there is no family; [`Error::NotOnDiagonal`] if `X` is on no diagonal; [`Error::CommonSphere`] where the
+    /// diagonals cross; as [`Family::blend`].
+    pub fn blends_at(&self, x: DVec3) -> Result<Vec<Blend>, Error> {
+        let mut blends = Vec::new();
+        let mut nearest = Error::NotBlendable(self.class);
+        for family in &self.families {
+            match family.blend_at(x) {
+                Ok(blend) => blends.push(blend),
+                Err(error @ Error::NotOnDiagonal { distance, .. }) => {
+                    if !matches!(nearest, Error::NotOnDiagonal { distance: other, .. } if other <= distance) {
+                        nearest = error;
+                    }
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        if blends.is_empty() { Err(nearest) } else { Ok(blends) }
+    }
+
+    /// The members that touch the first cone in the plane perpendicular to its axis at `height` from its vertex (its reference point, if it is a
+    /// cylinder): one of each family, so for cones on one axis the four or three tori of Shene's Theorem 16.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotBlendable`] if there is no family; [`Error::NotFinite`]. Families whose member there is the common sphere are left out.
+    pub fn blends_at_height(&self, height: f64) -> Result<Vec<Blend>, Error> {
+        crate::frame::finite("height", height)?;
+        if self.families.is_empty() {
+            return Err(Error::NotBlendable(self.class));
+        }
+        Ok(self.families.iter().filter_map(|family| family.blend_at_height(height).ok()).collect())
     }
 
     const fn without_families(class: Class) -> Self {

@@ -1,7 +1,7 @@
 //! Cones and cylinders as lines of oriented spheres.
 
 use crate::frame::{finite, finite_vector};
-use crate::{CurvatureCircle, Error, tolerance};
+use crate::{CurvatureCircle, Error};
 use glam::DVec3;
 use lorentz::Cycle;
 use std::f64::consts::FRAC_PI_2;
@@ -112,18 +112,6 @@ impl Cone {
     pub fn circle_at(&self, height: f64) -> CurvatureCircle {
         let radius = self.radius + height * self.half_angle.tan();
         CurvatureCircle { centre: self.point + height * self.axis, radius: radius.abs(), axis: self.axis }
-    }
-
-    /// The height of a circle of this cone, if it is one: centre on the axis, plane perpendicular to it, and the right
-    /// radius, all within `tolerance` times the circle's size.
-    pub(crate) fn height_of(&self, circle: &CurvatureCircle, tolerance: f64) -> Option<f64> {
-        let offset = circle.centre - self.point;
-        let height = offset.dot(self.axis);
-        let size = circle.radius.max(height.abs()).max(self.radius);
-        let expected = self.circle_at(height);
-        let on_axis = (offset - height * self.axis).length() <= tolerance * size;
-        let upright = circle.axis.cross(self.axis).length() <= tolerance;
-        (on_axis && upright && (circle.radius - expected.radius).abs() <= tolerance * size).then_some(height)
     }
 
     /// Which nappe the plane at this height cuts: 1 on the side of the axis direction, -1 on the other, 0 at the vertex. Always

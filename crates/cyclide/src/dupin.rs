@@ -90,6 +90,15 @@ impl Dupin {
         on_either!(self, surface => surface.frame())
     }
 
+    /// The same shape in another frame.
+    #[must_use]
+    pub const fn in_frame(self, frame: Frame) -> Self {
+        match self {
+            Self::Quartic(surface) => Self::Quartic(surface.in_frame(frame)),
+            Self::Parabolic(surface) => Self::Parabolic(surface.in_frame(frame)),
+        }
+    }
+
     /// The type of the surface as designed, lengths compared up to rounding.
     #[must_use]
     pub fn kind(&self) -> Kind {

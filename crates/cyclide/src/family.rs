@@ -357,6 +357,19 @@ impl Family {
         [shape.outer, -shape.outer, shape.inner, -shape.inner].map(|mean_radius| self.parameter_of_mean(&shape, mean_radius))
     }
 
+    /// The parameters in the middle of the two ring intervals, where the mean radius is half way between `a` and `c` (first) and minus that
+    /// (second): there the narrowest part of tube and hole is widest in proportion. `None` where such a middle is at infinity or not in the
+    /// family.
+    #[must_use]
+    pub fn ring_parameters(&self) -> [Option<f64>; 2] {
+        let shape = self.shape();
+        if self.conic == Conic::Parabola {
+            return [self.parameter_of_mean(&shape, 0.0), None];
+        }
+        let middle = 0.5 * (shape.outer + shape.inner);
+        [middle, -middle].map(|mean_radius| self.parameter_of_mean(&shape, mean_radius))
+    }
+
     /// The parameter at which the scale-free mean radius has the given value.
     pub(crate) fn parameter_of_mean(&self, shape: &Shape, mean_radius: f64) -> Option<f64> {
         let difference = mean_radius - shape.offset;

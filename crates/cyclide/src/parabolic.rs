@@ -71,6 +71,11 @@ impl Parabolic {
         Self { frame, ..self }
     }
 
+    /// All lengths multiplied by a positive factor, in the given frame.
+    pub(crate) fn scaled_in(self, factor: f64, frame: Frame) -> Self {
+        Self { f: self.f * factor, k: self.k * factor, frame }
+    }
+
     /// The same point set with `k >= 0`. For `k < 0` the symmetry `(x, y, z, k) -> (-x, z, y, -k)` turns the frame,
     /// exchanges the parameters `u` and `v`, and reverses the normal.
     #[must_use]

@@ -1,7 +1,7 @@
 //! Exact rational biquadratic Bézier patches of cyclides.
 
 use crate::frame::finite;
-use crate::{Dupin, Error, Parabolic, Quartic, tolerance};
+use crate::{Dupin, Error, Parabolic, Quartic};
 use bezier_mass::{Biquadratic, MassPoint};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
@@ -44,42 +44,48 @@ impl Dupin {
         Ok(CyclidePatch { surface: *self, first, second, net: Biquadratic::new(control)? })
     }
 
-    /// Patches that cover a rectangle and have ordinary weights, all at least `margin` times the largest (and `margin` in
-    /// `(0, 0.5]`): spans are halved until it holds. [`tolerance::POSITIVE_WEIGHT`] suits most software. Spans up to a
-    /// full turn are allowed here.
+    /// Patches that cover a rectangle and have ordinary weights, all at least `margin` times the largest (`margin` is clamped to
+    /// at most 0.5): spans are halved until it holds. [`crate::tolerance::POSITIVE_WEIGHT`] suits most software. Spans up to a
+    /// full turn are allowed here, and an infinite bound for one parameter of a parabolic cyclide.
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`], also for an infinite span; [`Error::Span`].
+    /// [`Error::NotFinite`]; [`Error::Span`], also for a rectangle with a corner at infinity, whose weight is zero.
     pub fn positive_patches(&self, first: [f64; 2], second: [f64; 2], margin: f64) -> Result<Vec<CyclidePatch>, Error> {
-        for bound in first.into_iter().chain(second) {
-            finite("patch bound", bound)?;
-        }
         let margin = finite("margin", margin)?.clamp(f64::MIN_POSITIVE, 0.5);
-        let longest = if self.as_quartic().is_some() { TAU * (1.0 + f64::EPSILON) } else { f64::INFINITY };
+        let turning = self.as_quartic().is_some();
+        let longest = if turning { TAU * (1.0 + f64::EPSILON) } else { f64::INFINITY };
         for [from, to] in [first, second] {
-            if from == to || (to - from).abs() > longest {
+            let short_enough = (to - from).abs() <= longest;
+            if from == to || !short_enough {
                 return Err(Error::Span { from, to });
             }
         }
+        if let (Some(&from), Some(&to)) = (first.iter().find(|bound| bound.is_infinite()), second.iter().find(|bound| bound.is_infinite())) {
+            return Err(Error::Span { from, to });
+        }
+        // The line u = tan(angle) is halved by its angle, so that infinity is an ordinary bound.
+        let angle = |bound: f64| if turning { bound } else { bound.atan() };
+        let length = |[from, to]: [f64; 2]| (angle(to) - angle(from)).abs();
+        let middle = |[from, to]: [f64; 2]| {
+            let angle = 0.5 * (angle(from) + angle(to));
+            if turning { angle } else { angle.tan() }
+        };
         let mut found = Vec::new();
         let mut waiting = vec![(first, second)];
         while let Some((first, second)) = waiting.pop() {
             // A span of a full turn is not one patch.
-            let patch = if self.as_quartic().is_some() && (length(first) > 1.5 * PI || length(second) > 1.5 * PI) {
-                None
-            } else {
-                Some(self.patch(first, second)?).filter(|patch| patch.has_weights_above(margin))
-            };
+            let too_long = turning && length(first).max(length(second)) > 1.5 * PI;
+            let patch = if too_long { None } else { Some(self.patch(first, second)?).filter(|patch| patch.has_weights_above(margin)) };
             match patch {
                 Some(patch) => found.push(patch),
-                // The weights tend to one another as the spans shrink, so this ends.
+                // The weights of a patch tend to one another as its spans shrink, so this ends.
                 None if length(first) >= length(second) => {
-                    let middle = 0.5 * (first[0] + first[1]);
+                    let middle = middle(first);
                     waiting.extend([([middle, first[1]], second), ([first[0], middle], second)]);
                 }
                 None => {
-                    let middle = 0.5 * (second[0] + second[1]);
+                    let middle = middle(second);
                     waiting.extend([(first, [middle, second[1]]), (first, [second[0], middle])]);
                 }
             }
@@ -101,10 +107,6 @@ impl Dupin {
         let spans = [[bounds[0], bounds[1]], [bounds[1], bounds[2]], [bounds[2], bounds[3]]];
         spans.iter().flat_map(|&first| spans.iter().map(move |&second| self.patch(first, second))).collect()
     }
-}
-
-fn length([from, to]: [f64; 2]) -> f64 {
-    (to - from).abs()
 }
 
 /// Controls of `(1, cos t, sin t)` over a span: the standard arc with end weights 1 and middle weight `cos(span/2)`.
@@ -241,5 +243,3 @@ pub fn normalise(net: &Biquadratic<DVec3>) -> Result<Biquadratic<DVec3>, Error> 
     let scaled = [0, 1, 2].map(|i| [0, 1, 2].map(|j| control[i][j] * (row_factors[i] * column_factors[j] / corner)));
     Ok(Biquadratic::new(scaled)?)
 }
-
-const _: () = assert!(tolerance::POSITIVE_WEIGHT < 0.5);

@@ -174,6 +174,11 @@ impl Quartic {
         Self { frame, ..self }
     }
 
+    /// All lengths multiplied by a positive factor, in the given frame.
+    pub(crate) fn scaled_in(self, factor: f64, frame: Frame) -> Self {
+        Self { a: self.a * factor, b: self.b * factor, c: self.c * factor, mu: self.mu * factor, frame, ..self }
+    }
+
     /// The parallel surface at signed distance `distance` along the normal: again a cyclide with the same frame, `a` and
     /// `c`, and the same parameters for corresponding points. Where `mu + distance` is negative the result is
     /// normalised as in [`Quartic::new`].

@@ -1,0 +1,68 @@
+//! From JSON to the values of the crate and back.
+
+use cyclide::glam::DVec3;
+use cyclide::{Cone, Dupin, Error, Frame, Quartic};
+use integration_tests::Case;
+use serde_json::{Value, json};
+
+pub(crate) fn number(value: &Value, key: &str) -> f64 {
+    integration_tests::number(&value[key]).unwrap_or_else(|| panic!("no number {key} in {value}"))
+}
+
+pub(crate) fn vector(value: &Value) -> DVec3 {
+    let numbers = integration_tests::numbers(value).unwrap_or_else(|| panic!("no vector: {value}"));
+    DVec3::from_slice(&numbers)
+}
+
+pub(crate) fn array(vector: DVec3) -> Value {
+    json!(vector.to_array())
+}
+
+pub(crate) fn frame(value: &Value) -> Frame {
+    if value.is_null() {
+        return Frame::WORLD;
+    }
+    let axis = |key: &str| vector(&value[key]);
+    Frame::new(axis("origin"), axis("x"), axis("y"), axis("z")).expect("a frame")
+}
+
+/// The surface at `surface`, or one whose parameters stand beside the other input.
+pub(crate) fn surface(case: &Case<'_>) -> Dupin {
+    let value = case.get("surface").unwrap_or(case.input());
+    let frame = frame(&value["frame"]);
+    if value.get("f").is_some() {
+        return Dupin::parabolic(number(value, "f"), number(value, "k"), frame).expect("a parabolic cyclide");
+    }
+    Dupin::quartic(number(value, "a"), number(value, "c"), number(value, "mu"), frame).expect("a quartic cyclide")
+}
+
+pub(crate) fn quartic(case: &Case<'_>) -> Quartic {
+    *surface(case).as_quartic().expect("a quartic")
+}
+
+pub(crate) fn span(case: &Case<'_>, name: &str) -> [f64; 2] {
+    ["0", "1"].map(|end| case.number(&format!("{name}{end}")))
+}
+
+pub(crate) fn cones(case: &Case<'_>) -> Result<[Cone; 2], Error> {
+    Ok([cone(&case.input()["cone1"])?, cone(&case.input()["cone2"])?])
+}
+
+fn cone(value: &Value) -> Result<Cone, Error> {
+    let axis = vector(&value["axis"]);
+    if value.get("cylinder_point").is_some() {
+        return Cone::cylinder(vector(&value["cylinder_point"]), axis, number(value, "radius"));
+    }
+    Cone::new(vector(&value["vertex"]), axis, number(value, "half_angle"))
+}
+
+/// Refuses with the error's category; the file's words mean it if they contain one of the given phrases.
+pub(crate) fn refuse(case: &Case<'_>, error: &Error, phrases: &[&str]) {
+    case.refuse(&error.to_string(), |words| phrases.iter().any(|phrase| words.contains(phrase)));
+}
+
+/// The direction among `direction` and `-direction` that the file has.
+pub(crate) fn up_to_sign(case: &Case<'_>, key: &str, direction: DVec3) -> Value {
+    let want = case.expected().get(key).map_or(DVec3::ZERO, vector);
+    array(if direction.dot(want) < 0.0 { -direction } else { direction })
+}
