@@ -180,11 +180,6 @@ impl Parabolic {
         [-p.y / (p.x - self.f + self.k), p.z / (p.x + self.f + self.k)]
     }
 
-    /// The parameters `[u, v]` with the given local unit normal; infinite for `-x`.
-    pub(crate) fn parameters_of_normal(normal: DVec3) -> [f64; 2] {
-        [-normal.y / (1.0 + normal.x), normal.z / (1.0 + normal.x)]
-    }
-
     /// The real singular points, world coordinates: none, one or two.
     #[must_use]
     pub fn singular_points(&self) -> Vec<DVec3> {

@@ -1,6 +1,6 @@
 //! Items a: evaluation, implicit forms, types, axes, distances, rays, Villarceau circles, areas, parabolic cyclides.
 
-use super::input::{array, number, quartic, surface, up_to_sign, vector};
+use super::input::{array, quartic, surface, up_to_sign, vector};
 use cyclide::glam::DVec3;
 use cyclide::{CurvatureCircle, Error, Frame, Kind, Quartic, tolerance};
 use integration_tests::Case;
@@ -116,6 +116,9 @@ pub(crate) fn parabolic(case: &Case<'_>) {
     compare_set(case, "singular_points_local", &local);
     case.compare("cubic_at_query", surface.implicit(query));
     case.compare("distance_at_query", surface.signed_distance(query).expect("a finite point").abs());
-    let [found_u, found_v] = surface.parameters_at(surface.point(u, v));
-    case.require((found_u - u).abs() + (found_v - v).abs() < 1e-9 * number(case.input(), "u").abs().max(1.0), "the parameters are not recovered");
+    // A singular point has a whole circle of parameters.
+    if surface.area_density(u, v) > 1e-6 {
+        let [found_u, found_v] = surface.parameters_at(surface.point(u, v));
+        case.require((found_u - u).abs() + (found_v - v).abs() < 1e-9 * (1.0 + u.abs() + v.abs()), "the parameters are not recovered");
+    }
 }
