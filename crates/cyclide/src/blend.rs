@@ -6,6 +6,7 @@ use crate::spheres::MovingSphere;
 use crate::{Cone, CurvatureCircle, Dupin, Error, Family, Frame, Kind, Quartic, SphereLine, tolerance};
 use glam::DVec3;
 use lorentz::Cycle;
+use std::f64::consts::{PI, TAU};
 
 /// Which lines of curvature of the surface touch the cones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -90,8 +91,8 @@ impl Blend {
         if self.family.one_axis { None } else { self.family.diagonal_point_of(self.parameter).position() }
     }
 
-    /// The larger of the two G1 residuals: how far, relative to the size of the contact spheres, each contact sphere and the tangent of
-    /// its line are from the conic of the surface and its tangent. Zero exactly if the tangent planes agree along both circles.
+    /// The larger of the two G1 residuals: how far, relative to the contact sphere and its distance from the vertex, each contact sphere and the
+    /// tangent of its line are from the conic of the surface and its tangent. Zero exactly if the tangent planes agree along both circles.
     #[must_use]
     pub const fn residual(&self) -> f64 {
         self.residual
@@ -129,7 +130,6 @@ impl Blend {
     /// so not given, if the surface is cubic.
     #[must_use]
     pub fn principal_circles(&self) -> [Option<CurvatureCircle>; 2] {
-        use std::f64::consts::PI;
         match (&self.surface, self.contact_family) {
             (Dupin::Quartic(surface), ContactFamily::Theta) => [Some(surface.psi_circle(0.0)), Some(surface.psi_circle(PI))],
             (Dupin::Quartic(surface), _) => [Some(surface.theta_circle(0.0)), Some(surface.theta_circle(PI))],
@@ -138,21 +138,27 @@ impl Blend {
         }
     }
 
-    /// The largest distance of `samples` points of each contact circle from the surface, relative to the circle's sphere, and the largest angle
-    /// (radians) between the normals of cone and surface there. A measurement that knows nothing of the construction.
+    /// Measures the blend without the construction: at `samples` points of the surface along each contact circle, the largest distance from
+    /// the cone (relative to the contact sphere) and the largest angle between the normals of surface and cone (radians).
     #[must_use]
     pub fn sampled_error(&self, samples: u32) -> (f64, f64) {
         let mut worst = (0.0_f64, 0.0_f64);
         for (contact, line) in self.contacts.iter().zip(&self.family.lines) {
-            let start = contact.circle.axis.any_orthonormal_vector();
-            let across = contact.circle.axis.cross(start);
+            let radius = contact.sphere.radius;
             for index in 0..samples {
-                let (sin, cos) = (std::f64::consts::TAU * f64::from(index) / f64::from(samples)).sin_cos();
-                let cone_normal = -line.sin * line.axis + line.cos * (cos * start + sin * across);
-                let point = contact.sphere.point_with_normal(cone_normal);
-                let Ok(nearest) = self.surface.closest(point) else { continue };
-                let distance = nearest.distance.abs() / contact.sphere.radius.abs();
-                let angle = cone_normal.cross(nearest.normal).length().atan2(cone_normal.dot(nearest.normal).abs());
+                let turn = (f64::from(index) + 0.5) / f64::from(samples);
+                let (first, second) = match self.contact_family {
+                    ContactFamily::Theta => (contact.parameter, TAU * turn),
+                    ContactFamily::Psi => (TAU * turn, contact.parameter),
+                    ContactFamily::U => (contact.parameter, (PI * (turn - 0.5)).tan()),
+                    ContactFamily::V => ((PI * (turn - 0.5)).tan(), contact.parameter),
+                };
+                let (point, normal) = (self.surface.point(first, second), self.surface.normal(first, second));
+                let offset = point - line.point;
+                let outward = (offset - offset.dot(line.axis) * line.axis).normalize_or_zero() * radius.signum();
+                let cone_normal = line.cos * outward - line.sin * line.axis;
+                let distance = (offset.dot(cone_normal) - line.radius).abs() / radius.abs();
+                let angle = cone_normal.cross(normal).length().atan2(cone_normal.dot(normal).abs());
                 worst = (worst.0.max(distance), worst.1.max(angle));
             }
         }
@@ -178,11 +184,10 @@ pub(crate) fn member(family: &Family, parameter: f64) -> Result<Blend, Error> {
         }
     };
     let mut residual = 0.0_f64;
-    let size = spheres.iter().fold(spheres[0].centre.distance(spheres[1].centre), |size, sphere| size.max(sphere.radius.abs()));
     let contact = |sphere: Cycle, line: &SphereLine, residual: &mut f64| {
         let parameter = contact_parameter(&surface.dupin, contact_family, sphere, surface.reversed);
         let moving = moving_sphere(&surface.dupin, contact_family, parameter);
-        *residual = residual.max(tangency_residual(moving, sphere, line, size));
+        *residual = residual.max(tangency_residual(moving, sphere, line));
         Contact { circle: line.contact_circle(sphere), sphere, parameter }
     };
     let [first, second] = &family.lines;
@@ -298,7 +303,8 @@ fn moving_sphere(surface: &Dupin, contact_family: ContactFamily, parameter: f64)
 
 /// G1 along a contact circle is the same as two conditions in R^{3,1}: the contact sphere is on the conic of the surface, and the
 /// conic's tangent there is the line of spheres of the cone. Up to one global orientation.
-fn tangency_residual(moving: MovingSphere, sphere: Cycle, line: &SphereLine, size: f64) -> f64 {
+fn tangency_residual(moving: MovingSphere, sphere: Cycle, line: &SphereLine) -> f64 {
+    let size = sphere.radius.abs().max(sphere.centre.distance(line.point));
     let position = moving.sphere.centre.distance(sphere.centre) / size;
     let speed = moving.velocity.centre.length();
     let direction = moving.velocity.centre.cross(line.axis).length() / speed;
@@ -319,7 +325,5 @@ fn tangency_residual(moving: MovingSphere, sphere: Cycle, line: &SphereLine, siz
 pub fn contact_residual(surface: &Dupin, contact_family: ContactFamily, parameter: f64, cone: &Cone) -> f64 {
     let line = cone.spheres();
     let moving = moving_sphere(surface, contact_family, parameter);
-    let s = line.foot(moving.sphere.centre);
-    let size = moving.sphere.radius.abs().max(f64::MIN_POSITIVE);
-    tangency_residual(moving, line.at(s), &line, size)
+    tangency_residual(moving, line.at(line.foot(moving.sphere.centre)), &line)
 }
