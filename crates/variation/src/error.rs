@@ -92,10 +92,12 @@ pub enum Error {
     /// Infinitely many meetings: the curve lies on the other one.
     #[error("the curve lies on the line or curve it was to meet")]
     LiesOn,
-    /// The coefficients leave the range in which `f64` can represent the composed polynomial.
-    #[error("the composed polynomial of degree {degree} does not fit the range of f64")]
-    OutOfRange {
-        /// Degree of the composed polynomial.
+    /// Derived polynomials are formed up to degree 120.
+    #[error("the derived polynomial has degree {degree}, more than {limit}")]
+    DegreeTooHigh {
+        /// Degree of the derived polynomial.
         degree: usize,
+        /// The largest that is formed.
+        limit: usize,
     },
 }

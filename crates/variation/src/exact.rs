@@ -5,7 +5,10 @@
 //! the roots of each factor, and exact values at `f64` points enclose each root as tightly as asked.
 
 use num_bigint::{BigInt, BigUint, Sign};
+use num_rational::BigRational;
 
+use crate::arithmetic::Number;
+use crate::rational::ExactRoot;
 use crate::root::Root;
 
 /// A nonzero polynomial with integer coefficients `c_i` of `t^i (1-t)^(n-i)`, nonzero at both ends.
@@ -21,6 +24,85 @@ pub(crate) struct Dyadic {
     exponent: u64,
 }
 
+/// A number `mantissa * 2^exponent`, for forming polynomials without rounding.
+#[derive(Clone, Debug)]
+pub(crate) struct Exact {
+    mantissa: BigInt,
+    exponent: i64,
+}
+
+impl Exact {
+    fn combined(&self, other: &Self, combine: impl Fn(BigInt, BigInt) -> BigInt) -> Self {
+        let exponent = self.exponent.min(other.exponent);
+        let aligned = |x: &Self| &x.mantissa << (x.exponent - exponent).unsigned_abs();
+        Self {
+            mantissa: combine(aligned(self), aligned(other)),
+            exponent,
+        }
+    }
+}
+
+impl Exact {
+    pub(crate) fn to_rational(&self) -> BigRational {
+        if self.exponent >= 0 {
+            BigRational::from(&self.mantissa << self.exponent.unsigned_abs())
+        } else {
+            BigRational::new(
+                self.mantissa.clone(),
+                BigInt::from(1) << self.exponent.unsigned_abs(),
+            )
+        }
+    }
+}
+
+impl Number for Exact {
+    fn exactly(x: f64) -> Self {
+        let (mantissa, exponent) = reduced(x);
+        Self {
+            mantissa: BigInt::from(mantissa),
+            exponent: i64::from(exponent),
+        }
+    }
+
+    fn sum(&self, other: &Self) -> Self {
+        self.combined(other, |a, b| a + b)
+    }
+
+    fn difference(&self, other: &Self) -> Self {
+        self.combined(other, |a, b| a - b)
+    }
+
+    fn product(&self, other: &Self) -> Self {
+        Self {
+            mantissa: &self.mantissa * &other.mantissa,
+            exponent: self.exponent + other.exponent,
+        }
+    }
+
+    fn times(&self, factor: u128) -> Self {
+        Self {
+            mantissa: &self.mantissa * factor,
+            exponent: self.exponent,
+        }
+    }
+}
+
+/// A positive multiple of the list, in integers.
+pub(crate) fn common_integers(values: &[Exact]) -> Vec<BigInt> {
+    let nonzero = values.iter().filter(|v| v.mantissa != BigInt::ZERO);
+    let exponent = nonzero.map(|v| v.exponent).min().unwrap_or(0);
+    values
+        .iter()
+        .map(|v| {
+            if v.mantissa == BigInt::ZERO {
+                BigInt::ZERO
+            } else {
+                &v.mantissa << (v.exponent - exponent).unsigned_abs()
+            }
+        })
+        .collect()
+}
+
 /// A root of one polynomial, as exact as its ends: simple roots of square-free factors.
 #[derive(Clone, Debug)]
 struct Isolated {
@@ -29,7 +111,7 @@ struct Isolated {
 }
 
 /// The mantissa and the exponent of a finite `f64`: the value is `mantissa * 2^exponent`.
-pub(crate) fn decode(x: f64) -> (i64, i32) {
+fn decode(x: f64) -> (i64, i32) {
     let bits = x.to_bits();
     let biased = ((bits >> 52) & 0x7ff) as i32;
     let fraction = (bits & ((1 << 52) - 1)) as i64;
@@ -39,27 +121,6 @@ pub(crate) fn decode(x: f64) -> (i64, i32) {
         (fraction | (1 << 52), biased - 1075)
     };
     (if x < 0.0 { -mantissa } else { mantissa }, exponent)
-}
-
-/// A positive multiple of the list, in integers.
-pub(crate) fn integers(values: &[f64]) -> Vec<BigInt> {
-    let exponent = values
-        .iter()
-        .filter(|v| **v != 0.0)
-        .map(|v| reduced(*v).1)
-        .min()
-        .unwrap_or(0);
-    values
-        .iter()
-        .map(|v| {
-            let (mantissa, own) = reduced(*v);
-            if mantissa == 0 {
-                BigInt::ZERO
-            } else {
-                BigInt::from(mantissa) << (own - exponent).unsigned_abs()
-            }
-        })
-        .collect()
 }
 
 /// As [`decode`], with an odd mantissa.
@@ -107,6 +168,10 @@ impl Dyadic {
             numerator: (&lo << exponent) + (hi - lo) * numerator,
             exponent: common + exponent,
         }
+    }
+
+    fn to_rational(&self) -> BigRational {
+        BigRational::new(self.numerator.clone(), BigInt::from(1) << self.exponent)
     }
 
     /// The nearest `f64` that is not above (`up = false`) or not below (`up = true`).
@@ -210,18 +275,20 @@ pub(crate) struct Decomposition {
 }
 
 impl Decomposition {
-    /// From integer Bernstein coefficients on `[0, 1]` (any positive multiple); `None` for the zero polynomial.
-    pub(crate) fn of_bernstein(coefficients: Vec<BigInt>) -> Option<Self> {
+    /// From Bernstein coefficients on `[0, 1]`; `None` for the zero polynomial.
+    pub(crate) fn of_bernstein(coefficients: &[f64]) -> Option<Self> {
+        let exact: Vec<Exact> = coefficients.iter().map(|p| Exact::exactly(*p)).collect();
         let degree = coefficients.len().checked_sub(1)?;
-        let scaled = coefficients
-            .into_iter()
-            .zip(binomials(degree))
-            .map(|(p, binomial)| p * binomial)
-            .collect();
-        Self::of_homogeneous(scaled)
+        Self::of_homogeneous(
+            common_integers(&exact)
+                .into_iter()
+                .zip(binomials(degree))
+                .map(|(p, b)| p * b)
+                .collect(),
+        )
     }
 
-    /// From the coefficients of `t^i (1-t)^(n-i)`.
+    /// From the coefficients of `t^i (1-t)^(n-i)`; `None` for the zero polynomial.
     pub(crate) fn of_homogeneous(mut coefficients: Vec<BigInt>) -> Option<Self> {
         let at_zero = coefficients.iter().position(|c| *c != BigInt::ZERO)?;
         let last = coefficients.iter().rposition(|c| *c != BigInt::ZERO)?;
@@ -242,14 +309,8 @@ impl Decomposition {
 
     /// All roots in the open interval `(lo, hi)`, ascending, each enclosed to `tolerance`.
     pub(crate) fn roots_between(&self, lo: f64, hi: f64, tolerance: f64) -> Vec<Root> {
-        let (lo, hi) = (Dyadic::from_f64(lo), Dyadic::from_f64(hi));
-        let mut found: Vec<(Isolated, u32)> = Vec::new();
-        for (factor, multiplicity) in &self.factors {
-            for isolated in factor.isolate(&lo, &hi) {
-                found.push((factor.enclose(isolated, tolerance), *multiplicity));
-            }
-        }
-        let mut roots: Vec<Root> = found
+        let mut roots: Vec<Root> = self
+            .isolated(&Dyadic::from_f64(lo), &Dyadic::from_f64(hi), tolerance)
             .iter()
             .map(|(at, multiplicity)| {
                 Root::exactly(at.lo.to_f64(false), at.hi.to_f64(true), *multiplicity)
@@ -259,9 +320,43 @@ impl Decomposition {
         roots
     }
 
-    /// Encloses the only root in `(lo, hi)`, which is simple, to `tolerance`.
-    pub(crate) fn root_between(&self, lo: f64, hi: f64, tolerance: f64) -> Option<Root> {
-        self.roots_between(lo, hi, tolerance).into_iter().next()
+    /// All roots in `[0, 1]`, ascending.
+    pub(crate) fn exact_roots(&self, tolerance: f64) -> Vec<ExactRoot> {
+        let end = |at: f64, multiplicity: u32| {
+            let at = Dyadic::from_f64(at);
+            (multiplicity > 0).then(|| {
+                (
+                    Isolated {
+                        lo: at.clone(),
+                        hi: at,
+                    },
+                    multiplicity,
+                )
+            })
+        };
+        let inner = self.isolated(&Dyadic::from_f64(0.0), &Dyadic::from_f64(1.0), tolerance);
+        let mut roots: Vec<ExactRoot> = end(0.0, self.at_zero)
+            .into_iter()
+            .chain(inner)
+            .chain(end(1.0, self.at_one))
+            .map(|(at, multiplicity)| ExactRoot {
+                lo: at.lo.to_rational(),
+                hi: at.hi.to_rational(),
+                multiplicity,
+            })
+            .collect();
+        roots.sort_by(|a, b| a.lo.cmp(&b.lo).then(a.hi.cmp(&b.hi)));
+        roots
+    }
+
+    fn isolated(&self, lo: &Dyadic, hi: &Dyadic, tolerance: f64) -> Vec<(Isolated, u32)> {
+        let mut found = Vec::new();
+        for (factor, multiplicity) in &self.factors {
+            for isolated in factor.isolate(lo, hi) {
+                found.push((factor.enclose(isolated, tolerance), *multiplicity));
+            }
+        }
+        found
     }
 }
 

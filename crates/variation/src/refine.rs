@@ -17,8 +17,8 @@ pub(crate) struct Bracket {
 pub(crate) enum Refined {
     /// Enclosed to the tolerance.
     Enclosed { lo: f64, hi: f64 },
-    /// The signs that `f64` can decide leave this bracket.
-    Stuck { lo: f64, hi: f64 },
+    /// The signs that could be decided leave this bracket; the root is probably near `at`.
+    Stuck { lo: f64, hi: f64, at: f64 },
 }
 
 /// Shrinks the bracket to at most `tolerance`, starting from `guess`.
@@ -71,7 +71,7 @@ pub(crate) fn refine(
         }
     }
     // The value at x is within its error bound: the widest enclosure that is still accepted is the last attempt.
-    if let Some((lo, hi)) = enclose(
+    match enclose(
         evaluator,
         x,
         0.499 * tolerance,
@@ -79,12 +79,9 @@ pub(crate) fn refine(
         &mut lo,
         &mut hi,
     ) {
-        return Refined::Enclosed { lo, hi };
-    }
-    if hi - lo <= tolerance {
-        Refined::Enclosed { lo, hi }
-    } else {
-        Refined::Stuck { lo, hi }
+        Some((lo, hi)) => Refined::Enclosed { lo, hi },
+        None if hi - lo <= tolerance => Refined::Enclosed { lo, hi },
+        None => Refined::Stuck { lo, hi, at: x },
     }
 }
 

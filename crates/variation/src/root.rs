@@ -53,6 +53,12 @@ impl Interval {
         self.b - self.a
     }
 
+    /// The parameter of `[0, 1]` that corresponds to `t`, outside `[0, 1]` if `t` lies outside.
+    #[must_use]
+    pub fn to_unit(self, t: f64) -> f64 {
+        (t - self.a) / self.width()
+    }
+
     /// Encloses the image of `[lo, hi]` in `[0, 1]` under `u -> a + (b - a) u`, rounded outward and kept within the ends.
     pub(crate) fn image(self, lo: f64, hi: f64) -> (f64, f64) {
         if self == Self::UNIT {

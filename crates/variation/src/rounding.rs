@@ -16,12 +16,16 @@ pub(crate) const MAX_FLOAT_DEGREE: usize = 64;
 pub(crate) const SAFE_EXPONENT: i32 = 400;
 
 /// `C(n, i)` for `n <= 64`, each rounded once.
-pub(crate) static BINOMIALS: [[f64; MAX_FLOAT_DEGREE + 1]; MAX_FLOAT_DEGREE + 1] = binomials();
+pub(crate) static BINOMIALS: [[f64; MAX_FLOAT_DEGREE + 1]; MAX_FLOAT_DEGREE + 1] = binomials(false);
+
+/// What is missing from [`BINOMIALS`]: nonzero for large degrees, where binomials need more than 53 bits.
+pub(crate) static BINOMIAL_RESTS: [[f64; MAX_FLOAT_DEGREE + 1]; MAX_FLOAT_DEGREE + 1] =
+    binomials(true);
 
 /// `2^-k`.
 pub(crate) static HALF_POWERS: [f64; MAX_FLOAT_DEGREE + 1] = half_powers();
 
-const fn binomials() -> [[f64; MAX_FLOAT_DEGREE + 1]; MAX_FLOAT_DEGREE + 1] {
+const fn binomials(rests: bool) -> [[f64; MAX_FLOAT_DEGREE + 1]; MAX_FLOAT_DEGREE + 1] {
     let mut exact = [0_u128; MAX_FLOAT_DEGREE + 1];
     let mut rows = [[0.0; MAX_FLOAT_DEGREE + 1]; MAX_FLOAT_DEGREE + 1];
     let mut n = 0;
@@ -34,7 +38,12 @@ const fn binomials() -> [[f64; MAX_FLOAT_DEGREE + 1]; MAX_FLOAT_DEGREE + 1] {
         }
         let mut i = 0;
         while i <= n {
-            rows[n][i] = exact[i] as f64;
+            let rounded = exact[i] as f64;
+            rows[n][i] = if rests {
+                (exact[i] as i128 - rounded as i128) as f64
+            } else {
+                rounded
+            };
             i += 1;
         }
         n += 1;
@@ -163,8 +172,42 @@ impl<'a> Evaluator<'a> {
         }
     }
 
+    /// A bound on the Bernstein coefficients of `sum |p_i| C(n,i) t^i (1-t)^(n-i)` on `[lo, hi]`, which are values of a
+    /// blossom there: each factor `t` is at most `hi`, each `1 - t` at most `1 - lo`. Exact up to rounding for `lo = hi`.
+    pub(crate) fn magnitude_between(&self, lo: f64, hi: f64) -> f64 {
+        let rest = 1.0 - lo;
+        let (magnitudes, u, unit) = if hi <= rest {
+            (self.forward_magnitude, hi / rest, rest)
+        } else {
+            (self.backward_magnitude, rest / hi, hi)
+        };
+        let (even, odd) = alternate(magnitudes, u * u);
+        let degree = (magnitudes.len() - 1) as i32;
+        // The roundings, also those of the power.
+        (even + u * odd) * unit.powi(degree) * (1.0 + 2.0 * self.unit)
+    }
+
     /// `F(t)` and `F'(t)` for `t` in `[0, 1]`, up to a common positive factor.
     pub(crate) fn local(&self, t: f64) -> Local {
+        let (at, slope, u) = self.in_side(t);
+        // The chain rule, and the factor (1-t)^n or t^n that is left out of the value.
+        let n = (self.forward.len() - 1) as f64;
+        let s = 1.0 + u;
+        let slope = s * (s * slope - n * at.value);
+        Local {
+            at,
+            slope: if t <= 0.5 { slope } else { -slope },
+        }
+    }
+
+    /// The derivative with respect to `u`.
+    pub(crate) fn slope_in_side(&self, t: f64) -> f64 {
+        self.in_side(t).1
+    }
+
+    /// The sum, its derivative with respect to `u`, and `u`.
+    #[inline]
+    fn in_side(&self, t: f64) -> (Bounded, f64, f64) {
         let (coefficients, magnitudes, u) = self.side(t);
         let w = u * u;
         let degree = coefficients.len() - 1;
@@ -189,24 +232,12 @@ impl<'a> Evaluator<'a> {
             even_magnitude = even_magnitude * w + m[0];
             odd_magnitude = odd_magnitude * w + m[1];
         }
-        let value = even + u * odd;
-        // d/du of even(u^2) + u odd(u^2), then the chain rule and the factor (1-t)^n.
-        let slope = odd + 2.0 * u * (even_slope + u * odd_slope);
-        let n = degree as f64;
-        let slope = if t <= 0.5 {
-            let s = 1.0 + u;
-            s * (s * slope - n * value)
-        } else {
-            let s = 1.0 + u;
-            s * (n * value - s * slope)
+        let at = Bounded {
+            value: even + u * odd,
+            bound: self.unit * (even_magnitude + u * odd_magnitude),
         };
-        Local {
-            at: Bounded {
-                value,
-                bound: self.unit * (even_magnitude + u * odd_magnitude),
-            },
-            slope,
-        }
+        // d/du of even(u^2) + u odd(u^2)
+        (at, odd + 2.0 * u * (even_slope + u * odd_slope), u)
     }
 }
 

@@ -3,16 +3,18 @@
 use crate::Error;
 #[cfg(feature = "exact")]
 use crate::exact::{self, Decomposition};
-use crate::isolate::{self, Finding, Findings, Node, node_capacity, rows_len};
+use crate::isolate::{self, Finding, Findings, Node, Values, node_capacity, rows_len};
 use crate::root::{Count, INLINE, Interval, Root, Roots};
 use crate::rounding::{BINOMIALS, Evaluator, MAX_FLOAT_DEGREE, SAFE_EXPONENT, U, evaluator_len};
+use crate::sharp::{Sharp, sharp_len};
+use crate::subdivision::{self, Coefficient};
 
 /// The width, relative to the interval, to which roots are enclosed unless asked otherwise.
 pub const DEFAULT_TOLERANCE: f64 = 1e-12;
 
 /// All real roots in `[0, 1]` of `sum p_i C(n,i) t^i (1-t)^(n-i)`, ascending, each certified.
 ///
-/// Allocates nothing up to degree 16 unless a sign has to be decided exactly. To solve many, keep a [`Solver`].
+/// Allocates nothing up to degree 16 unless `f64` cannot decide a sign. To solve many, keep a [`Solver`].
 ///
 /// # Errors
 /// [`Error::NoCoefficients`], [`Error::NotFinite`], [`Error::IdenticallyZero`]. A nonzero constant has no roots.
@@ -21,7 +23,8 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-12;
 /// ```
 /// // (4t - 1)^2 (4t - 3)^2, times 3: two double roots
 /// let roots = variation::roots(&[27.0, -45.0, 59.0, -45.0, 27.0])?;
-/// assert_eq!(roots.iter().map(|root| root.value()).collect::<Vec<_>>(), [0.25, 0.75]);
+/// assert!((roots[0].value() - 0.25).abs() <= 1e-12 && (roots[1].value() - 0.75).abs() <= 1e-12);
+/// # #[cfg(feature = "exact")]
 /// assert_eq!(roots[0].multiplicity(), Some(2));
 /// # Ok::<(), variation::Error>(())
 /// ```
@@ -35,29 +38,29 @@ pub fn roots(coefficients: &[f64]) -> Result<Roots, Error> {
 /// As [`roots`].
 pub fn roots_on(coefficients: &[f64], interval: Interval) -> Result<Roots, Error> {
     const N: usize = INLINE;
-    let input = Input {
-        coefficients,
-        error: 0.0,
-        origin: Origin::Coefficients,
-    };
-    if coefficients.len() <= N + 1 {
-        let mut numbers = [0.0; numbers_len(N)];
-        let mut waiting = [Node::NONE; node_capacity(N)];
-        let mut findings = [Finding::NONE; node_capacity(N)];
-        let mut roots = [Root::NONE; roots_capacity(N)];
-        let scratch = Scratch {
-            numbers: &mut numbers,
-            waiting: &mut waiting,
-            findings: &mut findings,
-            roots: &mut roots,
-        };
-        let len = solve(&input, interval, Options::DEFAULT, scratch)?;
-        Ok(Roots::from_slice(&roots[..len]))
-    } else {
-        Solver::new()
+    if coefficients.len() > N + 1 {
+        return Solver::new()
             .roots_on(coefficients, interval)
-            .map(Roots::from_slice)
+            .map(Roots::from_slice);
     }
+    let mut numbers = [0.0; numbers_len(N)];
+    let mut waiting = [Node::NONE; node_capacity(N)];
+    let mut findings = [Finding::NONE; node_capacity(N)];
+    let mut roots = [Root::NONE; roots_capacity(N)];
+    let scratch = Scratch {
+        numbers: &mut numbers,
+        waiting: &mut waiting,
+        findings: &mut findings,
+        fixed: &mut Fixed::default(),
+        roots: &mut roots,
+    };
+    let len = solve(
+        &Input::exactly(coefficients),
+        interval,
+        Options::DEFAULT,
+        scratch,
+    )?;
+    Ok(Roots::from_slice(&roots[..len]))
 }
 
 /// A polynomial as the algorithm sees it.
@@ -66,7 +69,23 @@ pub(crate) struct Input<'a> {
     pub(crate) coefficients: &'a [f64],
     /// Bound on the absolute error of each coefficient.
     pub(crate) error: f64,
+    /// Numbers of leading and of trailing coefficients that are certainly zero.
+    pub(crate) zeros: (usize, usize),
     pub(crate) origin: Origin<'a>,
+}
+
+impl<'a> Input<'a> {
+    /// The polynomial with exactly these coefficients.
+    fn exactly(coefficients: &'a [f64]) -> Self {
+        let leading = coefficients.iter().take_while(|p| **p == 0.0).count();
+        let trailing = coefficients.iter().rev().take_while(|p| **p == 0.0).count();
+        Self {
+            coefficients,
+            error: 0.0,
+            zeros: (leading, trailing),
+            origin: Origin::Coefficients,
+        }
+    }
 }
 
 /// Where the exact coefficients come from.
@@ -74,41 +93,45 @@ pub(crate) struct Input<'a> {
 pub(crate) enum Origin<'a> {
     /// They are the given ones.
     Coefficients,
-    /// The given ones are rounded; this forms the exact ones, as a positive multiple in integers.
+    /// The given ones are rounded; this forms the exact ones, in scaled form.
     #[cfg(feature = "exact")]
-    Formed(&'a dyn Fn() -> Vec<num_bigint::BigInt>),
-    /// The given ones are rounded and the exact ones unknown.
+    Formed(&'a dyn Fn() -> Vec<exact::Exact>),
+    /// The given ones are rounded and there is no exact arithmetic.
     #[cfg(not(feature = "exact"))]
-    Rounded(std::marker::PhantomData<&'a ()>),
+    Formed(std::marker::PhantomData<&'a ()>),
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Options {
     tolerance: f64,
-    #[cfg_attr(
-        not(feature = "exact"),
-        expect(dead_code, reason = "there is no exact path to forbid")
-    )]
     exact: bool,
 }
 
 impl Options {
     const DEFAULT: Self = Self {
         tolerance: DEFAULT_TOLERANCE,
-        exact: true,
+        exact: cfg!(feature = "exact"),
     };
 }
 
 /// Storage for one solve.
 struct Scratch<'a> {
     numbers: &'a mut [f64],
-    waiting: &'a mut [Node],
+    waiting: &'a mut [Node<f64>],
     findings: &'a mut [Finding],
+    fixed: &'a mut Fixed,
     roots: &'a mut [Root],
 }
 
+/// Storage of the fixed-point tier, allocated when it is first needed.
+#[derive(Clone, Debug, Default)]
+struct Fixed {
+    waiting: Vec<Node<i128>>,
+    rows: Vec<i128>,
+}
+
 const fn numbers_len(degree: usize) -> usize {
-    (degree + 1) + evaluator_len(degree) + rows_len(degree)
+    (degree + 1) + evaluator_len(degree) + sharp_len(degree) + rows_len(degree)
 }
 
 /// Room for every finding and the two ends.
@@ -132,8 +155,9 @@ const fn roots_capacity(degree: usize) -> usize {
 pub struct Solver {
     options: Options,
     numbers: Vec<f64>,
-    waiting: Vec<Node>,
+    waiting: Vec<Node<f64>>,
     findings: Vec<Finding>,
+    fixed: Fixed,
     roots: Vec<Root>,
 }
 
@@ -152,6 +176,10 @@ impl Solver {
             numbers: Vec::new(),
             waiting: Vec::new(),
             findings: Vec::new(),
+            fixed: Fixed {
+                waiting: Vec::new(),
+                rows: Vec::new(),
+            },
             roots: Vec::new(),
         }
     }
@@ -163,7 +191,7 @@ impl Solver {
         self
     }
 
-    /// Forbids the exact path: what `f64` cannot decide is reported as [`Count::AtMost`].
+    /// Forbids exact arithmetic: what remains undecided without it is reported as [`Count::AtMost`].
     #[must_use]
     pub fn without_exact(mut self) -> Self {
         self.options.exact = false;
@@ -183,14 +211,7 @@ impl Solver {
     /// # Errors
     /// As [`crate::roots`].
     pub fn roots_on(&mut self, coefficients: &[f64], interval: Interval) -> Result<&[Root], Error> {
-        self.solve(
-            &Input {
-                coefficients,
-                error: 0.0,
-                origin: Origin::Coefficients,
-            },
-            interval,
-        )
+        self.solve(&Input::exactly(coefficients), interval)
     }
 
     pub(crate) fn solve(
@@ -199,11 +220,9 @@ impl Solver {
         interval: Interval,
     ) -> Result<&[Root], Error> {
         let degree = input.coefficients.len().saturating_sub(1);
-        let float_degree = degree.min(MAX_FLOAT_DEGREE);
-        if self.numbers.len() < numbers_len(float_degree) {
-            self.numbers.resize(numbers_len(float_degree), 0.0);
-        }
         if self.roots.len() < roots_capacity(degree) {
+            self.numbers
+                .resize(numbers_len(degree.min(MAX_FLOAT_DEGREE)), 0.0);
             self.waiting.resize(node_capacity(degree), Node::NONE);
             self.findings.resize(node_capacity(degree), Finding::NONE);
             self.roots.resize(roots_capacity(degree), Root::NONE);
@@ -212,6 +231,7 @@ impl Solver {
             numbers: &mut self.numbers,
             waiting: &mut self.waiting,
             findings: &mut self.findings,
+            fixed: &mut self.fixed,
             roots: &mut self.roots,
         };
         let len = solve(input, interval, self.options, scratch)?;
@@ -225,51 +245,70 @@ fn solve(
     options: Options,
     scratch: Scratch<'_>,
 ) -> Result<usize, Error> {
-    let Scratch {
-        numbers,
-        waiting,
-        findings,
-        roots,
-    } = scratch;
     let coefficients = input.coefficients;
     let largest = largest(coefficients)?;
-    if largest == 0.0 && input.error == 0.0 {
+    if input.zeros.0 == coefficients.len() {
         return Err(Error::IdenticallyZero);
     }
-    let (at_zero, at_one) = if input.error == 0.0 {
-        zeros_at_ends(coefficients)
-    } else {
-        (0, 0)
-    };
+    let certain = |p: Option<&f64>| p.is_some_and(|p| p.abs() > input.error);
+    let (at_zero, at_one) = input.zeros;
     let inner = &coefficients[at_zero..coefficients.len() - at_one];
+    let certain_ends = certain(inner.first()) && certain(inner.last());
+    // With an uncertain end the exact path decides on everything, the multiplicities of the ends included.
+    let (at_zero, at_one, inner) = if certain_ends {
+        (at_zero, at_one, inner)
+    } else {
+        (0, 0, coefficients)
+    };
     let degree = inner.len() - 1;
 
-    let mut findings = Findings::new(&mut findings[..node_capacity(degree)]);
-    let certain_ends = inner[0].abs() > input.error && inner[degree].abs() > input.error;
-    if degree > MAX_FLOAT_DEGREE || !certain_ends {
+    let mut findings = Findings::new(&mut scratch.findings[..node_capacity(degree)]);
+    if coefficients.len() > MAX_FLOAT_DEGREE + 1 || !certain_ends {
         findings.give_up(degree);
     } else if degree > 0 {
-        find_inside(
-            input,
+        let mut storage = Storage {
+            numbers: scratch.numbers,
+            waiting: scratch.waiting,
+            fixed: scratch.fixed,
+        };
+        let problem = Problem {
             inner,
             at_zero,
-            largest,
-            options,
-            numbers,
-            waiting,
-            &mut findings,
-        );
+            formal: coefficients.len() - 1,
+            error: input.error,
+        };
+        problem.solve(largest, options.tolerance, &mut storage, &mut findings);
     }
 
     let mut list = List {
-        roots,
+        roots: scratch.roots,
         len: 0,
         interval,
     };
     if at_zero > 0 {
         list.push(Root::exactly(0.0, 0.0, at_zero as u32));
     }
-    conclude(input, options, &findings, &mut list)?;
+    for (i, finding) in findings.as_slice().iter().enumerate() {
+        match *finding {
+            Finding::Refined { lo, hi } => list.push(Root::exactly(lo, hi, 1)),
+            _ if options.exact => {
+                conclude(
+                    input,
+                    options.tolerance,
+                    &findings.as_slice()[i..],
+                    !certain_ends,
+                    &mut list,
+                )?;
+                break;
+            }
+            Finding::Wide { lo, hi } => list.push(Root::exactly(lo, hi, 1)),
+            Finding::Undecided { lo, hi, at_most } => list.push(Root {
+                lo,
+                hi,
+                count: Count::AtMost(at_most),
+            }),
+        }
+    }
     if at_one > 0 {
         list.push(Root::exactly(1.0, 1.0, at_one as u32));
     }
@@ -300,92 +339,123 @@ fn largest(coefficients: &[f64]) -> Result<f64, Error> {
     })
 }
 
-/// Multiplicities of the roots 0 and 1: the numbers of leading and trailing zeros.
-fn zeros_at_ends(coefficients: &[f64]) -> (usize, usize) {
-    let leading = coefficients.iter().take_while(|p| **p == 0.0).count();
-    let trailing = coefficients.iter().rev().take_while(|p| **p == 0.0).count();
-    (leading, trailing)
+/// A polynomial with nonzero ends: the coefficients that remain without the zeros at both ends, of a polynomial of degree
+/// `formal` with `at_zero` leading zeros. Dividing out the factor `t^at_zero (1-t)^at_one` leaves `C(n,i) p_i` as it is.
+struct Problem<'a> {
+    inner: &'a [f64],
+    at_zero: usize,
+    formal: usize,
+    error: f64,
 }
 
-/// The roots in the open interval, without the factors of the ends, as far as `f64` decides them.
-#[expect(
-    clippy::too_many_arguments,
-    reason = "the parts of one solve, split where the storage is borrowed"
-)]
-fn find_inside(
-    input: &Input<'_>,
-    inner: &[f64],
-    at_zero: usize,
-    largest: f64,
-    options: Options,
-    numbers: &mut [f64],
-    waiting: &mut [Node],
-    findings: &mut Findings<'_>,
-) {
-    let degree = inner.len() - 1;
-    let formal = input.coefficients.len() - 1;
-    let (scaled, numbers) = numbers.split_at_mut(degree + 1);
-    let (store, rows) = numbers.split_at_mut(evaluator_len(degree));
-    let exponent = exponent_of(largest);
-    let mut error = input.error;
-    scaled.copy_from_slice(inner);
-    if exponent.abs() > SAFE_EXPONENT {
-        // Two factors, since 2^-exponent alone may leave the range.
-        let (half, rest) = (
-            2.0_f64.powi(-exponent / 2),
-            2.0_f64.powi(-exponent - (-exponent / 2)),
-        );
-        for p in &mut *scaled {
-            *p = *p * half * rest;
+/// Storage of the tiers without exact arithmetic.
+struct Storage<'a> {
+    numbers: &'a mut [f64],
+    waiting: &'a mut [Node<f64>],
+    fixed: &'a mut Fixed,
+}
+
+impl Problem<'_> {
+    /// The roots in the open interval, as far as `f64` and fixed point decide them.
+    fn solve(
+        &self,
+        largest: f64,
+        tolerance: f64,
+        storage: &mut Storage<'_>,
+        findings: &mut Findings<'_>,
+    ) {
+        let degree = self.inner.len() - 1;
+        let (scaled, numbers) = storage.numbers.split_at_mut(degree + 1);
+        let (plain, numbers) = numbers.split_at_mut(evaluator_len(degree));
+        let (sharp, rows) = numbers.split_at_mut(sharp_len(degree));
+        let mut error = self.error;
+        scaled.copy_from_slice(self.inner);
+        let exponent = exponent_of(largest);
+        let in_range = exponent.abs() <= SAFE_EXPONENT;
+        if !in_range {
+            // Two factors, since 2^-exponent alone may leave the range.
+            let (half, rest) = (
+                power_of_two(-exponent / 2),
+                power_of_two(-exponent - (-exponent / 2)),
+            );
+            for p in &mut *scaled {
+                *p = *p * half * rest;
+            }
+            error = error * half * rest + f64::MIN_POSITIVE;
         }
-        error = error * half * rest + f64::MIN_POSITIVE;
-    }
-    if degree == formal {
-        let binomials = &BINOMIALS[degree];
-        let evaluator = Evaluator::new(
-            scaled.iter().zip(binomials).map(|(p, b)| p * b),
+        let whole = degree == self.formal;
+        let before = &BINOMIALS[self.formal][self.at_zero..=self.at_zero + degree];
+        let after = &BINOMIALS[degree][..=degree];
+        if !whole {
+            error *= before
+                .iter()
+                .zip(after)
+                .fold(1.0_f64, |g, (b, a)| g.max(b / a))
+                * (1.0 + 8.0 * U);
+        }
+        let plain = Evaluator::new(
+            scaled.iter().zip(before).map(|(p, b)| p * b),
             degree,
             error,
-            store,
+            plain,
         );
-        isolate::isolate(
-            scaled,
-            error,
-            &evaluator,
-            options.tolerance,
-            waiting,
-            rows,
-            findings,
-        );
-    } else if formal <= MAX_FLOAT_DEGREE {
-        // Without the factor t^at_zero (1-t)^at_one the scaled coefficients stay the same.
-        let (before, after) = (&BINOMIALS[formal][at_zero..], &BINOMIALS[degree]);
-        for (p, b) in scaled.iter_mut().zip(before) {
-            *p *= b;
+        let row = &mut rows[..=degree];
+        row.copy_from_slice(scaled);
+        if !whole {
+            for ((p, b), a) in row.iter_mut().zip(before).zip(after) {
+                *p = *p * b / a;
+            }
+            // Two roundings of the binomials, a product and a quotient.
+            error += 5.0 * U * row.iter().fold(0.0_f64, |m, p| m.max(p.abs()));
         }
-        let evaluator = Evaluator::new(scaled.iter().copied(), degree, error, store);
-        let mut largest = 0.0_f64;
-        for (p, b) in scaled.iter_mut().zip(after) {
-            *p /= b;
-            largest = largest.max(p.abs());
+        if !(row[0].exceeds(error) && row[degree].exceeds(error)) {
+            return findings.give_up(degree);
         }
-        // Two roundings of the binomials, a product and a quotient.
-        error += 5.0 * U * largest;
-        if scaled[0].abs() > error && scaled[degree].abs() > error {
+        let exactly_known = (whole && in_range && self.error == 0.0).then_some(self.inner);
+        let mut values = Values {
+            plain,
+            sharp: Sharp::new(exactly_known, sharp),
+            tolerance,
+        };
+        isolate::isolate(degree, error, &mut values, storage.waiting, rows, findings);
+        let undecided = findings
+            .as_slice()
+            .iter()
+            .any(|f| matches!(f, Finding::Undecided { .. }));
+        if let (true, Some(coefficients)) = (undecided, exactly_known) {
+            storage
+                .fixed
+                .isolate(coefficients, exponent, &mut values, findings);
+        }
+    }
+}
+
+impl Fixed {
+    /// Repeats the isolation in fixed point.
+    fn isolate(
+        &mut self,
+        coefficients: &[f64],
+        exponent: i32,
+        values: &mut Values<'_>,
+        findings: &mut Findings<'_>,
+    ) {
+        let degree = coefficients.len() - 1;
+        self.rows.resize(self.rows.len().max(rows_len(degree)), 0);
+        self.waiting
+            .resize(self.waiting.len().max(node_capacity(degree)), Node::NONE);
+        let row = &mut self.rows[..=degree];
+        let error = subdivision::to_fixed(coefficients, exponent, row);
+        if row[0].exceeds(error) && row[degree].exceeds(error) {
+            findings.clear();
             isolate::isolate(
-                scaled,
+                degree,
                 error,
-                &evaluator,
-                options.tolerance,
-                waiting,
-                rows,
+                values,
+                &mut self.waiting,
+                &mut self.rows,
                 findings,
             );
-        } else {
-            findings.give_up(degree);
         }
-    } else {
-        findings.give_up(degree);
     }
 }
 
@@ -393,10 +463,15 @@ fn find_inside(
 fn exponent_of(x: f64) -> i32 {
     let biased = ((x.to_bits() >> 52) & 0x7ff) as i32;
     if biased == 0 {
-        -1074 + (63 - x.to_bits().leading_zeros() as i32)
+        -1011 - x.to_bits().leading_zeros() as i32
     } else {
         biased - 1023
     }
+}
+
+/// `2^exponent` for exponents of normal numbers.
+fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((exponent + 1023).clamp(1, 2046) as u64) << 52)
 }
 
 /// Roots in the order of their discovery, mapped to the interval.
@@ -420,73 +495,42 @@ impl List<'_> {
     }
 }
 
-/// Turns findings into roots, deciding exactly what is still open.
+/// Turns findings, from the first open one on, into roots, by exact arithmetic.
 #[cfg(feature = "exact")]
 fn conclude(
     input: &Input<'_>,
-    options: Options,
-    findings: &Findings<'_>,
+    tolerance: f64,
+    findings: &[Finding],
+    ends_open: bool,
     list: &mut List<'_>,
 ) -> Result<(), Error> {
-    let mut exactly: Option<Decomposition> = None;
-    for finding in findings.iter() {
-        let (lo, hi) = match *finding {
-            Finding::Refined { lo, hi } => {
-                list.push(Root::exactly(lo, hi, 1));
-                continue;
+    let decomposition = match input.origin {
+        Origin::Coefficients => Decomposition::of_bernstein(input.coefficients),
+        Origin::Formed(form) => Decomposition::of_homogeneous(exact::common_integers(&form())),
+    };
+    let decomposition = decomposition.ok_or(Error::IdenticallyZero)?;
+    let (at_zero, at_one) = decomposition.ends();
+    if ends_open && at_zero > 0 {
+        list.push(Root::exactly(0.0, 0.0, at_zero));
+    }
+    for finding in findings {
+        match *finding {
+            Finding::Refined { lo, hi } => list.push(Root::exactly(lo, hi, 1)),
+            Finding::Wide { lo, hi } | Finding::Undecided { lo, hi, .. } => {
+                for root in decomposition.roots_between(lo, hi, tolerance) {
+                    list.push(root);
+                }
             }
-            _ if !options.exact => {
-                list.push(undecided(*finding));
-                continue;
-            }
-            Finding::Wide { lo, hi } | Finding::Undecided { lo, hi, .. } => (lo, hi),
-        };
-        let decomposition = match &mut exactly {
-            Some(known) => known,
-            unknown => {
-                let integers = match input.origin {
-                    Origin::Coefficients => exact::integers(input.coefficients),
-                    Origin::Formed(form) => form(),
-                };
-                unknown.insert(Decomposition::of_bernstein(integers).ok_or(Error::IdenticallyZero)?)
-            }
-        };
-        let (at_zero, at_one) = decomposition.ends();
-        let ends_unknown = input.error > 0.0;
-        if ends_unknown && lo == 0.0 && at_zero > 0 {
-            list.push(Root::exactly(0.0, 0.0, at_zero));
         }
-        for root in decomposition.roots_between(lo, hi, options.tolerance) {
-            list.push(root);
-        }
-        if ends_unknown && hi == 1.0 && at_one > 0 {
-            list.push(Root::exactly(1.0, 1.0, at_one));
-        }
+    }
+    if ends_open && at_one > 0 {
+        list.push(Root::exactly(1.0, 1.0, at_one));
     }
     Ok(())
 }
 
-/// Turns findings into roots; what is still open stays open.
+/// Never called: without the feature `exact` no option asks for it.
 #[cfg(not(feature = "exact"))]
-fn conclude(
-    _: &Input<'_>,
-    _: Options,
-    findings: &Findings<'_>,
-    list: &mut List<'_>,
-) -> Result<(), Error> {
-    for finding in findings.iter() {
-        list.push(undecided(*finding));
-    }
+fn conclude(_: &Input<'_>, _: f64, _: &[Finding], _: bool, _: &mut List<'_>) -> Result<(), Error> {
     Ok(())
-}
-
-fn undecided(finding: Finding) -> Root {
-    match finding {
-        Finding::Refined { lo, hi } | Finding::Wide { lo, hi } => Root::exactly(lo, hi, 1),
-        Finding::Undecided { lo, hi, at_most } => Root {
-            lo,
-            hi,
-            count: Count::AtMost(at_most),
-        },
-    }
 }
