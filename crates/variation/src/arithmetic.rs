@@ -171,15 +171,6 @@ pub(crate) fn binomial(n: usize, i: usize) -> u128 {
     (0..i.min(n - i) as u128).fold(1, |c, k| c * (n as u128 - k) / (k + 1))
 }
 
-/// `C(n,i) p_i`.
-pub(crate) fn scaled<N: Number>(coefficients: impl ExactSizeIterator<Item = N>) -> Vec<N> {
-    let n = coefficients.len().saturating_sub(1);
-    coefficients
-        .enumerate()
-        .map(|(i, p)| p.times(binomial(n, i)))
-        .collect()
-}
-
 /// Product of two scaled polynomials.
 pub(crate) fn convolve<N: Number>(f: &[N], g: &[N]) -> Vec<N> {
     let mut result = vec![N::exactly(0.0); (f.len() + g.len()).saturating_sub(1)];
