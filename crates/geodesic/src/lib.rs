@@ -3,6 +3,7 @@
 mod error;
 mod finder;
 mod funnel;
+mod loops;
 mod mesh;
 mod path;
 mod pivot;
@@ -15,6 +16,7 @@ mod surface_point;
 pub use error::Error;
 pub use finder::{PathFinder, Start};
 pub use glam;
+pub use loops::{DirectedLoop, GeodesicLoop, LoopFinder};
 #[cfg(feature = "triangulate")]
 pub use mesh::triangulate_domain;
 pub use mesh::{
