@@ -161,15 +161,18 @@ pub struct Certificate {
     pub smallest_side_angle: f64,
     /// Length of the path, added up in space.
     pub length: f64,
+    /// What the rounding of the coordinates can do to these angles, in radians: for each face involved, an ulp of its
+    /// corners over its height. Only needles make it count.
+    pub rounding: f64,
 }
 
 impl Certificate {
     /// Whether the path is a geodesic: straight to [`CERTIFIED_STRAIGHTNESS`], with side angles of at least π less
-    /// [`CERTIFIED_ANGLE`].
+    /// [`CERTIFIED_ANGLE`], both widened by [`rounding`](Self::rounding).
     #[must_use]
     pub fn is_geodesic(&self) -> bool {
-        self.straightness <= CERTIFIED_STRAIGHTNESS
-            && self.smallest_side_angle >= PI - CERTIFIED_ANGLE
+        self.straightness <= CERTIFIED_STRAIGHTNESS + self.rounding
+            && self.smallest_side_angle >= PI - CERTIFIED_ANGLE - self.rounding
     }
 }
 
@@ -186,12 +189,14 @@ pub(crate) fn certify(
         straightness: 0.0,
         smallest_side_angle: f64::INFINITY,
         length: 0.0,
+        rounding: 0.0,
     };
     let mut stretch = vec![DVec2::ZERO];
     let mut rotation = DVec2::X;
     for (i, (ends, &face)) in points.windows(2).zip(faces).enumerate() {
         let step = step_in_face(mesh, face, ends[0], ends[1])?;
         certificate.length += step.length();
+        certificate.rounding += angle_rounding(mesh, face);
         let here = stretch.last().copied().unwrap_or_default();
         stretch.push(here + rotation.rotate(step));
         let onward = faces.get(i + 1).zip(points.get(i + 2));
@@ -224,6 +229,10 @@ pub(crate) fn certify(
                     let incoming = ray_in_face(mesh, face, point, ends[0]);
                     let outgoing = ray_in_face(mesh, next_face, point, after);
                     let (left, right) = side_angles(mesh, v, incoming, outgoing);
+                    certificate.rounding += mesh
+                        .star(v)
+                        .map(|h| angle_rounding(mesh, face_of(h)))
+                        .sum::<f64>();
                     for side in [left, right].into_iter().flatten() {
                         certificate.smallest_side_angle = certificate.smallest_side_angle.min(side);
                     }
@@ -232,6 +241,17 @@ pub(crate) fn certify(
         }
     }
     Ok(certificate)
+}
+
+/// An ulp of the corners of a face over its height: the angle that rounding moves it by.
+fn angle_rounding(mesh: &Mesh, face: u32) -> f64 {
+    let [a, b, c] = mesh.faces()[face as usize].map(|v| mesh.position(v));
+    let size = [a, b, c]
+        .map(|p| p.abs().max_element())
+        .into_iter()
+        .fold(0.0, f64::max);
+    let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+    f64::EPSILON * size * longest / (b - a).cross(c - a).length()
 }
 
 /// The corners of a face in a plane frame of its own.

@@ -13,9 +13,14 @@ use crate::strip::{Side, Strip};
 /// A side angle below π by more than this makes a path improvable at the vertex, in radians.
 pub(crate) const SIDE_ANGLE: f64 = TOUCH_ANGLE;
 
-/// An update must shorten the path by more than this, relatively: lengths then decrease strictly, no sequence of faces
+/// An update should shorten the path by more than this, relatively: where lengths decrease strictly no sequence of faces
 /// comes again, and the process ends whatever rounding does.
 const STRICTLY: f64 = 1e-14;
+
+/// A bend of 1e-7 at a vertex lengthens a path by 1e-14 of itself, which rounding hides, while the angle says clearly
+/// that the path should pass on the other side. So many updates that change the length by rounding only are made in one
+/// query; a path through needles of 1e-6 needs a few of them.
+const SIDEWAYS: usize = 1000;
 
 /// A direction at a vertex: the outgoing half-edge of the face in which it lies, and the angle from that half-edge.
 #[derive(Clone, Copy, Debug, Default)]
@@ -96,6 +101,8 @@ pub(crate) struct Shortener {
     fresh: Vec<Node>,
     arrival: Ray,
     pub(crate) updates: usize,
+    /// Updates left that need not shorten the path.
+    sideways: usize,
 }
 
 impl Shortener {
@@ -103,6 +110,7 @@ impl Shortener {
     pub(crate) fn begin(&mut self, mesh: &Mesh, from: SurfacePoint, to: SurfacePoint) {
         self.store.clear();
         self.updates = 0;
+        self.sideways = SIDEWAYS;
         self.solve_strip(mesh, from, to);
         self.nodes.clear();
         self.nodes.append(&mut self.fresh);
@@ -187,9 +195,11 @@ impl Shortener {
         let old = before.leg.length + node.leg.length;
         let new: f64 = self.fresh.iter().map(|node| node.leg.length).sum();
         let shorter = new < old * (1.0 - STRICTLY);
-        // A straight part without a vertex is a path of fewer nodes: that, too, can only happen so many times.
-        let simpler = new <= old * (1.0 + STRICTLY) && self.fresh.len() == 1;
-        if !(shorter || simpler) {
+        let sideways = new <= old * (1.0 + STRICTLY) && self.sideways > 0;
+        if !shorter {
+            self.sideways = self.sideways.saturating_sub(1);
+        }
+        if !(shorter || sideways) {
             self.store.truncate(stored);
             self.nodes[i].settled = true;
             return false;
