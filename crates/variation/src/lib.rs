@@ -8,6 +8,7 @@ mod error;
 mod exact;
 mod isolate;
 mod line;
+mod meet;
 mod polar;
 #[cfg(feature = "exact")]
 mod rational;
@@ -28,6 +29,7 @@ pub use curve::{Curve, Hit, meet_plane, roots_of_power_form};
 pub use error::Error;
 pub use glam;
 pub use line::{ImplicitCurve, Line, Plane, Term};
+pub use meet::Meeting;
 #[cfg(feature = "exact")]
 pub use num_bigint::BigInt;
 #[cfg(feature = "exact")]
