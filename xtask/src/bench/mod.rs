@@ -49,7 +49,7 @@ use crate::demo::write_atomically;
 
 // mod reconstruct;
 
-// mod render;
+mod render;
 
 // mod variation;
 
@@ -70,9 +70,7 @@ pub fn all() -> Vec<Entry> {
         // entry::<ph_curves::PhCurves>(),
 
         // entry::<reconstruct::Reconstruct>(),
-
-        // entry::<render::Render>(),
-
+        entry::<render::Render>(),
         // entry::<variation::Variation>(),
 
         // entry::<wavefront::Wavefront>(),
