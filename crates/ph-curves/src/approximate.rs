@@ -4,11 +4,10 @@
 use glam::DVec2;
 
 use crate::arc_spline::Segment;
-use crate::curvature_element::EQUAL_RADII;
-use crate::plane_curve::curvature;
+use crate::fit::{Attempt, End, Fit, Fitter, Interval, regular, tagged};
+use crate::plane_curve::merge;
 use crate::{
-    ArcSpline, Break, BreakKind, CurvatureElement, Error, G1Ends, G2Pair, Joint, LineElement,
-    Piece, PlacedArc, PlaneCurve, Side, TQuartic,
+    ArcSpline, Break, BreakKind, Error, Joint, Piece, PlacedArc, PlaneCurve, Side, TQuartic,
 };
 
 /// How a curve is approximated.
@@ -20,18 +19,44 @@ pub struct Approximation {
     pub tolerance: f64,
     /// Tension of the pairs of arcs, in (0, 1); 1/2 gives order 5, any other value order 3.
     pub beta: f64,
-    /// Curvature continuity wherever arcs of class 3 allow it (everywhere but at inflections, cusps and corners);
-    /// [`Joint::G1`] spends about a third fewer arcs on continuity of the tangent alone.
+    /// The class of the arcs.
+    pub arcs: Arcs,
+    /// For class 3, curvature continuity wherever its arcs allow it (everywhere but at inflections, cusps and corners);
+    /// [`Joint::G1`] needs about half the arcs for a continuous tangent alone.
     pub continuity: Joint,
 }
 
+/// The class of the arcs of an approximation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Arcs {
+    /// Pairs of Tschirnhausen quartics: lowest degree, monotone curvature on every arc, the curve's vertices kept.
+    /// Order 5.
+    Class3,
+    /// Single PH arcs of class 9, rational of degree 10, which take point, tangent and curvature at both ends and four
+    /// supports in between. Order 10: far fewer pieces at tight tolerances.
+    Class9,
+}
+
 impl Approximation {
-    /// G2 within `tolerance`, with tension 1/2.
+    /// G2 within `tolerance` by Tschirnhausen quartics of monotone curvature, with tension 1/2.
     #[must_use]
     pub const fn within(tolerance: f64) -> Self {
         Self {
             tolerance,
             beta: 0.5,
+            arcs: Arcs::Class3,
+            continuity: Joint::G2,
+        }
+    }
+
+    /// G2 within `tolerance` by the fewest pieces: arcs of class 9.
+    #[must_use]
+    pub const fn fewest(tolerance: f64) -> Self {
+        Self {
+            tolerance,
+            beta: 0.5,
+            arcs: Arcs::Class9,
             continuity: Joint::G2,
         }
     }
@@ -66,66 +91,22 @@ pub struct Breakpoints {
     pub cusps: Vec<f64>,
 }
 
-/// Largest turning of one pair of arcs, in radians: somewhat below the half turn at which arcs end to exist.
-const MOST_TURNING_COSINE: f64 = -0.94;
-/// Turning below which the radii at a joint lose their digits (relative error some eps / h): G1 arcs.
-const LEAST_G2_TURNING: f64 = 1e-7;
-/// Turning below which there are no arcs, but corners and segments.
-const LEAST_TURNING: f64 = 1e-12;
-/// A radius of more than so many chords counts as that of an inflection.
-const FLAT: f64 = 1e7;
-/// A radius of less than this share of the chord counts as that of a cusp: its digits are lost in those of the arc.
-const SHARP: f64 = 1e-6;
 /// Angle between tangents that makes a corner, far above the rounding of computed tangents.
 const CORNER: f64 = 1e-9;
 /// Largest turning of a fan of normals at a corner, which must stay below pi.
 const FAN: f64 = 1.6;
-/// Interior samples of the error per attempt, over both arcs of a pair.
-const SAMPLES: usize = 6;
-/// The true error exceeds the sampled one by a little; measured up to 1.15 on a thousand random splines.
-const PEAK: f64 = 1.16;
-/// Order of the pairs, which tells into how many parts a failed attempt is cut.
-const ORDER: f64 = 5.0;
+/// Order of the pairs of class 3, which tells into how many parts a failed attempt is cut.
+const PAIR_ORDER: f64 = 5.0;
+/// Order of the arcs of class 9.
+const WIDE_ORDER: f64 = 10.0;
+/// Share of a part next to an inflection or cusp: the error there falls with its third power.
+const GRADING: f64 = 0.3;
 /// Most parts of one cut.
 const MOST_PARTS: f64 = 16.0;
 /// Cuts of cuts after which a piece is given up.
 const MOST_DEPTH: u32 = 48;
 /// Smallest tolerance in units of the last place of the largest coordinate.
 const LEAST_TOLERANCE_ULPS: f64 = 64.0;
-
-/// One end of an interval: the curve's point, right-hand unit normal and signed curvature there, 0 at inflections and
-/// infinite at cusps.
-#[derive(Clone, Copy, Debug)]
-struct End {
-    t: f64,
-    point: DVec2,
-    normal: DVec2,
-    curvature: f64,
-}
-
-/// A part of a span of monotone curvature.
-#[derive(Clone, Copy, Debug)]
-struct Interval {
-    span: usize,
-    start: End,
-    end: End,
-    depth: u32,
-}
-
-/// What replaces an interval of the curve.
-#[derive(Clone, Copy, Debug)]
-enum Fit {
-    Pair([TQuartic; 2]),
-    Single(TQuartic),
-    Bridge,
-}
-
-/// An attempt: the fit, its measured error, and whether its end curvatures are those of the curve.
-struct Attempt {
-    fit: Fit,
-    error: f64,
-    matched: bool,
-}
 
 /// Approximates `curve` by a spline of class-3 arcs and segments.
 ///
@@ -154,7 +135,11 @@ pub fn approximate<C: PlaneCurve + ?Sized>(
     let mut cuts = Vec::new();
     for span in 0..curve.spans() {
         cuts.clear();
-        curve.breaks(span, &mut cuts);
+        curve.inflections(span, &mut cuts);
+        if how.arcs == Arcs::Class3 {
+            curve.vertices(span, &mut cuts);
+        }
+        merge(&mut cuts);
         builder.span(span, &cuts)?;
     }
     builder.finish()
@@ -172,7 +157,9 @@ pub fn breakpoints<C: PlaneCurve + ?Sized>(curve: &C) -> Result<Breakpoints, Err
     let mut before: Option<(f64, f64)> = None;
     for span in 0..curve.spans() {
         cuts.clear();
-        curve.breaks(span, &mut cuts);
+        curve.inflections(span, &mut cuts);
+        curve.vertices(span, &mut cuts);
+        merge(&mut cuts);
         if curve.is_straight(span) {
             found
                 .cusps
@@ -181,11 +168,11 @@ pub fn breakpoints<C: PlaneCurve + ?Sized>(curve: &C) -> Result<Breakpoints, Err
             continue;
         }
         let mut kind = None;
-        let mut start = end_at(curve, span, 0.0, Side::After)?;
+        let mut start = End::at(curve, span, 0.0, Side::After)?;
         for cut in cuts.iter().map(Some).chain([None]) {
-            let end = end_at(curve, span, cut.map_or(1.0, |cut| cut.t), Side::Before)?;
+            let end = End::at(curve, span, cut.map_or(1.0, |cut| cut.t), Side::Before)?;
             let end_curvature = cut.map_or(end.curvature, |cut| tagged(end.curvature, cut.kind));
-            let middle = end_at(curve, span, 0.5 * (start.t + end.t), Side::After)?.curvature;
+            let middle = End::at(curve, span, 0.5 * (start.t + end.t), Side::After)?.curvature;
             let signs = (middle.signum(), (end_curvature - start.curvature).signum());
             let at = span as f64 + start.t;
             match (kind, before) {
@@ -196,51 +183,15 @@ pub fn breakpoints<C: PlaneCurve + ?Sized>(curve: &C) -> Result<Breakpoints, Err
             }
             before = Some(signs);
             kind = cut.map(|cut| cut.kind);
-            start = end_at(curve, span, end.t, Side::After)?;
+            start = End::at(curve, span, end.t, Side::After)?;
             start.curvature = kind.map_or(start.curvature, |kind| tagged(start.curvature, kind));
         }
     }
     Ok(found)
 }
 
-/// The curvature that is meant at a break: computed values there are rounding.
-fn tagged(curvature: f64, kind: BreakKind) -> f64 {
-    match kind {
-        BreakKind::Inflection => 0.0,
-        BreakKind::Cusp => f64::INFINITY.copysign(curvature),
-        BreakKind::Vertex => curvature,
-    }
-}
-
-fn end_at<C: PlaneCurve + ?Sized>(
-    curve: &C,
-    span: usize,
-    t: f64,
-    side: Side,
-) -> Result<End, Error> {
-    let [point, first, second] = curve.jet(span, t);
-    if !(point.is_finite() && first.is_finite() && second.is_finite()) {
-        return Err(Error::NonFinite {
-            what: "a point or derivative of the curve",
-        });
-    }
-    let direction = curve.direction(span, t, side);
-    let normal = -direction.try_normalize().unwrap_or(DVec2::ZERO).perp();
-    let vanished = direction != first;
-    let curvature = if vanished {
-        f64::INFINITY
-    } else {
-        curvature(first, second)
-    };
-    Ok(End {
-        t,
-        point,
-        normal,
-        curvature,
-    })
-}
-
 struct Builder<'a, C: ?Sized> {
+    fitter: Fitter<'a, C>,
     curve: &'a C,
     how: &'a Approximation,
     /// Greatest extent of coordinates, for thresholds that are mere rounding.
@@ -282,6 +233,7 @@ impl<'a, C: PlaneCurve + ?Sized> Builder<'a, C> {
         }
         let room = 2 * curve.spans() + 8;
         Ok(Self {
+            fitter: Fitter { curve, how },
             curve,
             how,
             rounding,
@@ -300,10 +252,10 @@ impl<'a, C: PlaneCurve + ?Sized> Builder<'a, C> {
     /// Adds one span, cut at the given places.
     fn span(&mut self, span: usize, cuts: &[Break]) -> Result<(), Error> {
         let straight = self.curve.is_straight(span);
-        let mut start = end_at(self.curve, span, 0.0, Side::After)?;
+        let mut start = End::at(self.curve, span, 0.0, Side::After)?;
         for cut in cuts.iter().map(Some).chain([None]) {
             let t = cut.map_or(1.0, |cut| cut.t);
-            let mut end = end_at(self.curve, span, t, Side::Before)?;
+            let mut end = End::at(self.curve, span, t, Side::Before)?;
             if let Some(cut) = cut {
                 end.curvature = tagged(end.curvature, cut.kind);
             }
@@ -319,7 +271,7 @@ impl<'a, C: PlaneCurve + ?Sized> Builder<'a, C> {
             }
             start = match cut.map(|cut| cut.kind) {
                 Some(BreakKind::Cusp) => {
-                    let mut next = end_at(self.curve, span, t, Side::After)?;
+                    let mut next = End::at(self.curve, span, t, Side::After)?;
                     next.curvature = f64::INFINITY.copysign(next.curvature);
                     next
                 }
@@ -351,7 +303,7 @@ impl<'a, C: PlaneCurve + ?Sized> Builder<'a, C> {
     fn monotone(&mut self, whole: Interval) -> Result<(), Error> {
         self.stack.push(whole);
         while let Some(interval) = self.stack.pop() {
-            let attempt = self.attempt(&interval);
+            let attempt = self.fitter.attempt(&interval);
             let excess = attempt
                 .as_ref()
                 .map_or(f64::INFINITY, |a| a.error / self.how.tolerance);
@@ -374,28 +326,53 @@ impl<'a, C: PlaneCurve + ?Sized> Builder<'a, C> {
         Ok(())
     }
 
-    /// Pushes the parts of an interval, the first one on top.
+    /// Pushes the parts of an interval, the first one on top: as many as the order of the arcs promises to need, or two
+    /// that shrink towards an end without curvature.
     fn cut(&mut self, interval: &Interval, excess: f64) -> Result<(), Error> {
-        let graded = !(regular(interval.start.curvature) && regular(interval.end.curvature));
-        let parts = if graded || !excess.is_finite() {
-            2.0
+        let order = if self.how.arcs == Arcs::Class3 {
+            PAIR_ORDER
         } else {
+            WIDE_ORDER
+        };
+        let count = if excess.is_finite() {
             (1.1 * excess)
-                .powf(1.0 / ORDER)
+                .powf(1.0 / order)
                 .ceil()
                 .clamp(2.0, MOST_PARTS)
+        } else {
+            2.0
+        };
+        let (at_start, at_end) = (
+            !regular(interval.start.curvature),
+            !regular(interval.end.curvature),
+        );
+        let shares: &[f64] = match (at_start, at_end) {
+            (true, true) => &[GRADING, 1.0 - GRADING],
+            (true, false) => &[GRADING],
+            (false, true) => &[1.0 - GRADING],
+            (false, false) => &[],
+        };
+        let parts = if shares.is_empty() {
+            count as usize
+        } else {
+            shares.len() + 1
+        };
+        let share = |k: usize| {
+            shares
+                .get(k.wrapping_sub(1))
+                .copied()
+                .unwrap_or(k as f64 / parts as f64)
         };
         let (t0, t1) = (interval.start.t, interval.end.t);
         let mut end = interval.end;
-        let count = parts as usize;
-        for k in (0..count).rev() {
+        for k in (0..parts).rev() {
             let start = if k == 0 {
                 interval.start
             } else {
-                end_at(
+                End::at(
                     self.curve,
                     interval.span,
-                    t0 + (t1 - t0) * (k as f64 / parts),
+                    t0 + (t1 - t0) * share(k),
                     Side::After,
                 )?
             };
@@ -408,130 +385,6 @@ impl<'a, C: PlaneCurve + ?Sized> Builder<'a, C> {
             end = start;
         }
         Ok(())
-    }
-
-    /// The best fit of one interval with its measured error; none if there is no arc.
-    fn attempt(&self, interval: &Interval) -> Option<Attempt> {
-        let Interval { start, end, .. } = interval;
-        let chord = (end.point - start.point).length();
-        let cosine = start.normal.dot(end.normal);
-        let sine = start.normal.perp_dot(end.normal);
-        if sine.abs() > LEAST_TURNING && cosine > MOST_TURNING_COSINE {
-            let resolved = (FLAT.recip() / chord)..(SHARP.recip() / chord);
-            let g2 = self.how.continuity == Joint::G2
-                && sine.abs() > LEAST_G2_TURNING
-                && [start, end]
-                    .iter()
-                    .all(|e| resolved.contains(&e.curvature.abs()))
-                && start.curvature * end.curvature > 0.0;
-            let difference = (start.curvature - end.curvature).abs();
-            let unequal = difference > EQUAL_RADII * start.curvature.abs().max(end.curvature.abs());
-            let pair = if g2 && unequal {
-                self.pair(interval)
-            } else {
-                None
-            };
-            if let Some(attempt) = pair.or_else(|| self.single(interval, chord)) {
-                return Some(attempt);
-            }
-        }
-        self.bridge(interval, chord)
-    }
-
-    /// Two arcs of class 3 with the curvatures of the ends.
-    fn pair(&self, interval: &Interval) -> Option<Attempt> {
-        let Interval { start, end, .. } = interval;
-        let element = |e: &End| {
-            CurvatureElement::from_unit(e.point - start.point, e.normal, e.curvature.recip())
-        };
-        let pair = G2Pair::new(&element(start), &element(end), self.how.beta).ok()?;
-        let error = self.pair_error(interval, &pair)?;
-        Some(Attempt {
-            fit: Fit::Pair(pair.arcs),
-            error,
-            matched: true,
-        })
-    }
-
-    /// One arc of class 3 with G1 contact, its shape fitted to inner tangents.
-    fn single(&self, interval: &Interval, chord: f64) -> Option<Attempt> {
-        let element = |e: &End| LineElement::from_unit(e.point - interval.start.point, e.normal);
-        let ends = G1Ends::between(element(&interval.start), element(&interval.end));
-        let samples = [0.25, 0.5, 0.75].map(|share| self.tangent(interval, share));
-        let alpha = ends.clamp_alpha(ends.fit_alpha(samples)).ok()?;
-        let arc = ends.arc_of_positive(alpha);
-        let error = self.single_error(interval, &arc)?;
-        let [r0, r1] = ends.end_radii(alpha);
-        let agrees = |r: f64, curvature: f64| {
-            (r * curvature - 1.0).abs() <= EQUAL_RADII.max(f64::EPSILON * r.abs() / chord)
-        };
-        let matched = agrees(r0, interval.start.curvature) && agrees(r1, interval.end.curvature);
-        Some(Attempt {
-            fit: Fit::Single(arc),
-            error,
-            matched,
-        })
-    }
-
-    /// A corner, a segment and a corner: right where all of the interval is closer to its chord than the tolerance.
-    fn bridge(&self, interval: &Interval, chord: f64) -> Option<Attempt> {
-        let Interval {
-            span, start, end, ..
-        } = *interval;
-        let along = (end.point - start.point).try_normalize();
-        let mut error = 0.0_f64;
-        for k in 1..=SAMPLES {
-            let t = start.t + (end.t - start.t) * (k as f64 / (SAMPLES + 1) as f64);
-            let [point, ..] = self.curve.jet(span, t);
-            let from = point - start.point;
-            let distance = along.map_or(from.length(), |along| {
-                let nearest = along * from.dot(along).clamp(0.0, chord);
-                (from - nearest).length()
-            });
-            error = error.max(distance);
-        }
-        // A segment replaces a turning curve only where nothing of it can be seen; the factor leaves room for what the
-        // samples miss on a piece that may loop.
-        let error = 2.0 * error;
-        (error <= self.how.tolerance).then_some(Attempt {
-            fit: Fit::Bridge,
-            error,
-            matched: false,
-        })
-    }
-
-    /// Unit normal and support about the start point of the interval, at a share of its parameters.
-    #[inline]
-    fn tangent(&self, interval: &Interval, share: f64) -> (DVec2, f64) {
-        let (t0, t1) = (interval.start.t, interval.end.t);
-        let [point, first, _] = self.curve.jet(interval.span, t0 + (t1 - t0) * share);
-        let normal = -first.normalize_or_zero().perp();
-        (normal, normal.dot(point - interval.start.point))
-    }
-
-    /// Largest difference of supports at inner samples; none if a normal of the curve does not occur on the arcs.
-    fn pair_error(&self, interval: &Interval, pair: &G2Pair) -> Option<f64> {
-        let probes = pair.arcs.map(|arc| Probe::new(&arc));
-        let joint = pair.joint.normal();
-        let sense = interval.start.normal.perp_dot(joint);
-        let mut error = 0.0_f64;
-        for k in 1..=SAMPLES {
-            let (normal, support) = self.tangent(interval, k as f64 / (SAMPLES + 1) as f64);
-            let beyond = joint.perp_dot(normal) * sense > 0.0;
-            let probe = if beyond { &probes[1] } else { &probes[0] };
-            error = error.max((probe.support(normal)? - support).abs());
-        }
-        Some(PEAK * error)
-    }
-
-    fn single_error(&self, interval: &Interval, arc: &TQuartic) -> Option<f64> {
-        let probe = Probe::new(arc);
-        let mut error = 0.0_f64;
-        for k in 1..=SAMPLES {
-            let (normal, support) = self.tangent(interval, k as f64 / (SAMPLES + 1) as f64);
-            error = error.max((probe.support(normal)? - support).abs());
-        }
-        Some(PEAK * error)
     }
 
     /// Adds the pieces of an accepted attempt.
@@ -558,6 +411,18 @@ impl<'a, C: PlaneCurve + ?Sized> Builder<'a, C> {
                     }),
                     source,
                     Joint::G2,
+                );
+                self.last = Some((end, true));
+            }
+            Fit::Wide(local) => {
+                let joint = self.join(span, &start, true)?;
+                self.push(
+                    Piece::Wide(PlacedArc {
+                        origin: start.point,
+                        local,
+                    }),
+                    source,
+                    joint,
                 );
                 self.last = Some((end, true));
             }
@@ -697,46 +562,5 @@ impl<'a, C: PlaneCurve + ?Sized> Builder<'a, C> {
             g1_joints,
             corners: self.corners,
         })
-    }
-}
-
-/// Whether a curvature is neither zero nor infinite.
-fn regular(curvature: f64) -> bool {
-    curvature != 0.0 && curvature.is_finite()
-}
-
-/// An arc prepared for many evaluations of its support by the normal.
-struct Probe {
-    w0: DVec2,
-    w1: DVec2,
-    start: DVec2,
-    g: [f64; 4],
-}
-
-impl Probe {
-    fn new(arc: &TQuartic) -> Self {
-        let (w0, w1) = arc.spinors();
-        Self {
-            w0,
-            w1,
-            start: arc.normal(0.0),
-            g: *arc.coefficients(),
-        }
-    }
-
-    /// The support at a unit normal; none (but for a slack of rounding) outside of the arc.
-    #[inline]
-    fn support(&self, normal: DVec2) -> Option<f64> {
-        let (cosine, sine) = (self.start.dot(normal), self.start.perp_dot(normal));
-        let spinor = self.w0.rotate(DVec2::new(1.0 + cosine, sine));
-        let (a, b) = (self.w0.perp_dot(spinor), spinor.perp_dot(self.w1));
-        let sum = a + b;
-        let (t, s) = (a / sum, b / sum);
-        if !(t >= -1e-9 && s >= -1e-9) {
-            return None;
-        }
-        let [g0, g1, g2, g3] = self.g;
-        let value = s * s * (s * g0 + 3.0 * t * g1) + t * t * (3.0 * s * g2 + t * g3);
-        Some(value / (self.w0 * s + self.w1 * t).length_squared())
     }
 }

@@ -4,7 +4,7 @@ use bezier_mass::BezierCurve;
 use glam::{DVec2, DVec3};
 
 use crate::dual::rational_curve;
-use crate::{Error, TQuartic};
+use crate::{Error, PhArc};
 
 /// One piece of an [`ArcSpline`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,23 +14,25 @@ pub enum Piece {
     Segment(Segment),
     /// An arc of class 3. Its radius is zero for a corner, a point with a fan of normals.
     Arc(PlacedArc),
+    /// A PH arc of class 9, without cusp.
+    Wide(PlacedArc<10>),
 }
 
-/// A class-3 arc about an origin of its own, near to it: supports are then as small as the arc, and small arcs far from
+/// A PH arc (of class 3 unless said otherwise) about an origin of its own, near to it: supports are then as small as the arc, and small arcs far from
 /// the origin of the plane keep their digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct PlacedArc {
+pub struct PlacedArc<const N: usize = 4> {
     /// Where the arc's own origin lies.
     pub origin: DVec2,
     /// The arc about its own origin.
-    pub local: TQuartic,
+    pub local: PhArc<N>,
 }
 
-impl PlacedArc {
+impl<const N: usize> PlacedArc<N> {
     /// The same arc about the origin of the plane.
     #[must_use]
-    pub fn arc(&self) -> TQuartic {
+    pub fn arc(&self) -> PhArc<N> {
         self.local.translate(self.origin)
     }
 
@@ -38,6 +40,39 @@ impl PlacedArc {
     #[must_use]
     pub fn point(&self, t: f64) -> DVec2 {
         self.origin + self.local.point(t)
+    }
+
+    #[inline]
+    fn offset(&self, distance: f64) -> Self {
+        Self {
+            local: self.local.offset(distance),
+            ..*self
+        }
+    }
+
+    fn part(&self, from: f64, to: f64) -> Result<Self, Error> {
+        Ok(Self {
+            local: self.local.part(from, to)?,
+            ..*self
+        })
+    }
+
+    /// The arc run backwards, with its normals reversed: they stay on the right of travel.
+    fn reverse(&self) -> Self {
+        Self {
+            local: self.local.reverse().flip(),
+            ..*self
+        }
+    }
+
+    fn homogeneous(&self) -> Vec<DVec3> {
+        let origin = self.origin;
+        let sign = self.local.turning().signum();
+        self.local
+            .point_control()
+            .iter()
+            .map(|x| DVec3::new(x.x, x.y + x.x * origin.x, x.z + x.x * origin.y) * sign)
+            .collect()
     }
 }
 
@@ -97,6 +132,7 @@ impl Piece {
         match self {
             Self::Segment(segment) => segment.start.lerp(segment.end, t),
             Self::Arc(arc) => arc.point(t),
+            Self::Wide(arc) => arc.point(t),
         }
     }
 
@@ -106,6 +142,7 @@ impl Piece {
         match self {
             Self::Segment(segment) => segment.normal,
             Self::Arc(arc) => arc.local.normal(t),
+            Self::Wide(arc) => arc.local.normal(t),
         }
     }
 
@@ -115,6 +152,17 @@ impl Piece {
         match self {
             Self::Segment(_) => f64::INFINITY,
             Self::Arc(arc) => arc.local.radius(t),
+            Self::Wide(arc) => arc.local.radius(t),
+        }
+    }
+
+    /// Signed turning angle of the normal, zero on a segment.
+    #[must_use]
+    pub fn turning(&self) -> f64 {
+        match self {
+            Self::Segment(_) => 0.0,
+            Self::Arc(arc) => arc.local.turning(),
+            Self::Wide(arc) => arc.local.turning(),
         }
     }
 
@@ -131,10 +179,8 @@ impl Piece {
                     ..*segment
                 })
             }
-            Self::Arc(arc) => Self::Arc(PlacedArc {
-                local: arc.local.offset(distance),
-                ..*arc
-            }),
+            Self::Arc(arc) => Self::Arc(arc.offset(distance)),
+            Self::Wide(arc) => Self::Wide(arc.offset(distance)),
         }
     }
 
@@ -144,6 +190,17 @@ impl Piece {
         match self {
             Self::Segment(segment) => (segment.end - segment.start).length(),
             Self::Arc(arc) => arc.local.length(),
+            Self::Wide(arc) => arc.local.length(),
+        }
+    }
+
+    /// Parameters of the cusps, where the radius of curvature vanishes.
+    #[must_use]
+    pub fn cusps(&self) -> Vec<f64> {
+        match self {
+            Self::Segment(_) => Vec::new(),
+            Self::Arc(arc) => arc.local.cusp().into_iter().collect(),
+            Self::Wide(arc) => arc.local.cusps(),
         }
     }
 
@@ -153,10 +210,8 @@ impl Piece {
     /// [`Error::OutsideDomain`] otherwise.
     pub fn part(&self, from: f64, to: f64) -> Result<Self, Error> {
         match self {
-            Self::Arc(arc) => Ok(Self::Arc(PlacedArc {
-                local: arc.local.part(from, to)?,
-                ..*arc
-            })),
+            Self::Arc(arc) => arc.part(from, to).map(Self::Arc),
+            Self::Wide(arc) => arc.part(from, to).map(Self::Wide),
             Self::Segment(segment) => {
                 if !(from >= 0.0 && from < to && to <= 1.0) {
                     return Err(Error::OutsideDomain {
@@ -175,33 +230,39 @@ impl Piece {
         }
     }
 
-    /// Homogeneous Bernstein coefficients `(x0, x1, x2)` of the point form, a rational quartic with positive weights
-    /// (a segment has all its weights 1).
+    /// The piece run backwards; its normals turn around, so that they stay on the right of travel.
     #[must_use]
-    pub fn quartic(&self) -> [DVec3; 5] {
+    pub fn reverse(&self) -> Self {
         match self {
-            Self::Arc(arc) => {
-                let origin = arc.origin;
-                arc.local
-                    .quartic()
-                    .map(|x| DVec3::new(x.x, x.y + x.x * origin.x, x.z + x.x * origin.y))
-            }
-            Self::Segment(segment) => std::array::from_fn(|k| {
-                let point = segment.start.lerp(segment.end, k as f64 / 4.0);
-                DVec3::new(1.0, point.x, point.y)
+            Self::Segment(segment) => Self::Segment(Segment {
+                start: segment.end,
+                end: segment.start,
+                normal: -segment.normal,
             }),
+            Self::Arc(arc) => Self::Arc(arc.reverse()),
+            Self::Wide(arc) => Self::Wide(arc.reverse()),
         }
     }
 
-    /// The piece as a rational Bézier curve: degree 4, or 1 for a segment.
+    /// Homogeneous Bernstein coefficients `(x0, x1, x2)` of the point form, with positive weights: degree 1 for a
+    /// segment, 4 for an arc of class 3, 10 for one of class 9.
+    #[must_use]
+    pub fn homogeneous(&self) -> Vec<DVec3> {
+        match self {
+            Self::Segment(segment) => [segment.start, segment.end]
+                .map(|p| DVec3::new(1.0, p.x, p.y))
+                .to_vec(),
+            Self::Arc(arc) => arc.homogeneous(),
+            Self::Wide(arc) => arc.homogeneous(),
+        }
+    }
+
+    /// The piece as a rational Bézier curve, of the degree of [`Piece::homogeneous`].
     ///
     /// # Errors
     /// [`Error::NonFinite`] if the coefficients overflow.
     pub fn to_bezier(&self) -> Result<BezierCurve<DVec2>, Error> {
-        match self {
-            Self::Arc(_) => rational_curve(&self.quartic()),
-            Self::Segment(segment) => Ok(BezierCurve::polynomial(&[segment.start, segment.end])?),
-        }
+        rational_curve(&self.homogeneous())
     }
 }
 
@@ -215,7 +276,7 @@ pub enum Joint {
     G1,
 }
 
-/// A chain of class-3 arcs and straight segments with continuous normal: a front, not only a curve.
+/// A chain of PH arcs and straight segments with continuous normal: a front, not only a curve.
 ///
 /// Corners are arcs of radius zero that turn the normal, so that every offset is again such a chain: a corner becomes
 /// a circular arc on its outer side. The offset at distance d moves every point by d along its normal, to the

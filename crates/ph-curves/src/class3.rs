@@ -135,6 +135,11 @@ impl G1Ends {
         (self.cos_h, self.sin_h)
     }
 
+    /// Unit spinors of the end normals.
+    pub(crate) const fn unit_spinors(&self) -> (DVec2, DVec2) {
+        self.spinors
+    }
+
     /// Signed legs `(l0, l1)` of the tangent triangle: `P1 - P0 = l0 T0 + l1 T1`, `T = i N`.
     #[must_use]
     pub const fn legs(&self) -> (f64, f64) {
@@ -328,18 +333,6 @@ impl TQuartic {
         Some(t)
     }
 
-    /// Rounding error of a coefficient of the radius polynomial: some ulps of its largest term.
-    fn radius_noise(&self) -> f64 {
-        let (w0, w1) = self.spinors();
-        let largest = self
-            .coefficients()
-            .iter()
-            .fold(0.0_f64, |most, g| most.max(g.abs()));
-        let kappa = w0.perp_dot(w1);
-        16.0 * f64::EPSILON * largest * w0.length_squared().max(w1.length_squared())
-            / (kappa * kappa)
-    }
-
     /// `dR/dt = q g''' / (4 kappa^2)`, of constant sign.
     fn radius_slope(&self, t: f64) -> f64 {
         let (w0, w1) = self.spinors();
@@ -364,18 +357,6 @@ impl TQuartic {
         let legs = [square(w0) * third, w0.rotate(w1) * third];
         let (start, end) = (self.contact(0.0).centre(), self.contact(1.0).centre());
         TCubic::from_parts([start, start + legs[0], start + legs[0] + legs[1], end])
-    }
-
-    /// Arc length, the length of all parts: across a cusp both sides count positively. In closed form.
-    #[must_use]
-    pub fn length(&self) -> f64 {
-        match self.cusp() {
-            Some(t) if t > 0.0 && t < 1.0 => {
-                let (before, after) = self.split_inside(t);
-                before.signed_length().abs() + after.signed_length().abs()
-            }
-            _ => self.signed_length().abs(),
-        }
     }
 
     /// The point `point` with the normals from `start` to `end`, an arc of radius zero: the corner whose

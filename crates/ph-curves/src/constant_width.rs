@@ -259,9 +259,9 @@ impl SupportJet {
     }
 
     /// The first three support coefficients of an arc of class `class` that starts with this jet, where unit spinors
-    /// `h` apart carry the normals.
-    fn coefficients(&self, half_turning: f64, class: usize) -> [f64; 3] {
-        let (sine, cosine) = half_turning.sin_cos();
+    /// `h` apart carry the normals; `half_turning` is the sine and cosine of h, which may be negative.
+    pub(crate) fn coefficients(&self, half_turning: (f64, f64), class: usize) -> [f64; 3] {
+        let (sine, cosine) = half_turning;
         let slope = 2.0 * sine * self.slope;
         let bend = 4.0 * sine * sine * self.bend - 4.0 * sine * (cosine - 1.0) * self.slope;
         let (q1, q2) = (2.0 * (cosine - 1.0), 4.0 * (1.0 - cosine));
@@ -307,7 +307,7 @@ pub fn hermite_arc<const N: usize>(
     if !(turning > 0.0 && turning < PI) {
         return Err(Error::TurningTooLarge { turning });
     }
-    let half = 0.5 * turning;
+    let half = (0.5 * turning).sin_cos();
     let reversed_end = SupportJet {
         slope: -end.slope,
         ..end

@@ -11,6 +11,7 @@ mod constant_width;
 mod curvature_element;
 mod dual;
 mod error;
+mod fit;
 mod interpolator;
 mod line;
 mod minkowski;
@@ -26,7 +27,7 @@ mod sampled;
 mod spatial;
 mod t_cubic;
 
-pub use approximate::{Approximated, Approximation, Breakpoints, approximate, breakpoints};
+pub use approximate::{Approximated, Approximation, Arcs, Breakpoints, approximate, breakpoints};
 pub use arc_length::ArcLength;
 pub use arc_spline::{ArcSpline, Joint, Piece, PlacedArc, Segment};
 pub use cam::{Antisymmetric, Cam, HarmonicLift, Lift};

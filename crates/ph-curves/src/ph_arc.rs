@@ -553,6 +553,47 @@ impl<const N: usize> PhArc<N> {
             + 2.0 * (c - b * q1 / (2.0 * q2)) * half_turning
     }
 
+    /// Arc length, the length of all parts: across a cusp both sides count positively. In closed form.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        let (mut rest, mut begin, mut length) = (*self, 0.0, 0.0);
+        for t in self.cusps() {
+            if t > begin && t < 1.0 {
+                let (before, after) = rest.split_inside((t - begin) / (1.0 - begin));
+                length += before.signed_length().abs();
+                (rest, begin) = (after, t);
+            }
+        }
+        length + rest.signed_length().abs()
+    }
+
+    /// Parameters in `[0, 1]` where the radius of curvature vanishes, in increasing order, isolated and certified
+    /// as roots of the radius polynomial; none for a point, where it vanishes everywhere.
+    #[must_use]
+    pub fn cusps(&self) -> Vec<f64> {
+        let radius = self.radius_polynomial();
+        let noise = self.radius_noise();
+        if radius.iter().all(|r| *r > 0.0)
+            || radius.iter().all(|r| *r < 0.0)
+            || radius.iter().all(|r| r.abs() <= noise)
+        {
+            return Vec::new();
+        }
+        variation::roots(&radius).map_or_else(
+            |_| Vec::new(),
+            |roots| roots.iter().map(|root| root.value()).collect(),
+        )
+    }
+
+    /// Rounding error of a coefficient of the radius polynomial: some ulps of its largest term.
+    pub(crate) fn radius_noise(&self) -> f64 {
+        let largest = self.g.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
+        let kappa = self.kappa();
+        let m = Self::CLASS as f64;
+        let length = self.w0.length_squared().max(self.w1.length_squared());
+        2.0 * m * m * f64::EPSILON * largest * length / (kappa * kappa)
+    }
+
     /// Arc length from the start to parameter `t`, signed as [`PhArc::signed_length`].
     ///
     /// # Errors

@@ -55,12 +55,29 @@ pub trait PlaneCurve {
         false
     }
 
-    /// Appends the breaks inside the span, in increasing order.
+    /// Appends the inflections and cusps inside the span, in any order.
     ///
-    /// The default looks for sign changes of the curvature and of its differences over 64 steps and bisects them:
-    /// events closer together than that are missed. Curves that know better should say so here.
-    fn breaks(&self, span: usize, breaks: &mut Vec<Break>) {
-        sampled_breaks(self, span, breaks);
+    /// The default looks for sign changes of the curvature over 64 steps and bisects them: events closer together than
+    /// that are missed. Curves that know better should say so here.
+    fn inflections(&self, span: usize, breaks: &mut Vec<Break>) {
+        sampled_breaks(
+            &|t| curvature_at(self, span, t),
+            BreakKind::Inflection,
+            breaks,
+        );
+    }
+
+    /// Appends the vertices inside the span, where the derivative of the curvature changes sign, in any order.
+    ///
+    /// The default looks for sign changes of differences of the curvature, as above.
+    fn vertices(&self, span: usize, breaks: &mut Vec<Break>) {
+        // A central difference of curvatures over a step small against the search grid.
+        let step = 0.01 / SEARCH_STEPS as f64;
+        let rate = |t: f64| {
+            curvature_at(self, span, (t + step).min(1.0))
+                - curvature_at(self, span, (t - step).max(0.0))
+        };
+        sampled_breaks(&rate, BreakKind::Vertex, breaks);
     }
 
     /// Direction of travel at `t`, taken from one side, not normalised; zero only for a span that is a point.
@@ -86,49 +103,39 @@ pub(crate) fn curvature(first: DVec2, second: DVec2) -> f64 {
     }
 }
 
-/// Number of steps in which the default of [`PlaneCurve::breaks`] looks for sign changes.
+/// Number of steps in which the defaults of [`PlaneCurve`] look for sign changes.
 const SEARCH_STEPS: usize = 64;
 
-fn sampled_breaks<C: PlaneCurve + ?Sized>(curve: &C, span: usize, breaks: &mut Vec<Break>) {
-    let curvature_at = |t: f64| {
-        let [_, first, second] = curve.jet(span, t);
-        curvature(first, second)
-    };
-    // A central difference of curvatures over a step small against the search grid.
-    let step = 0.01 / SEARCH_STEPS as f64;
-    let rate_at = |t: f64| curvature_at((t + step).min(1.0)) - curvature_at((t - step).max(0.0));
+fn curvature_at<C: PlaneCurve + ?Sized>(curve: &C, span: usize, t: f64) -> f64 {
+    let [_, first, second] = curve.jet(span, t);
+    curvature(first, second)
+}
+
+fn sampled_breaks(function: &dyn Fn(f64) -> f64, kind: BreakKind, breaks: &mut Vec<Break>) {
     let grid = |k: usize| k as f64 / SEARCH_STEPS as f64;
-    let mut found: Vec<Break> = Vec::new();
-    for (kind, function) in [
-        (BreakKind::Inflection, &curvature_at as &dyn Fn(f64) -> f64),
-        (BreakKind::Vertex, &rate_at),
-    ] {
-        for k in 0..SEARCH_STEPS {
-            let (mut low, mut high) = (grid(k), grid(k + 1));
-            let (at_low, at_high) = (function(low), function(high));
-            if at_low * at_high >= 0.0 {
-                continue;
-            }
-            while high - low > f64::EPSILON {
-                let middle = 0.5 * (low + high);
-                if function(middle) * at_low > 0.0 {
-                    low = middle
-                } else {
-                    high = middle
-                }
-            }
-            found.push(Break { t: high, kind });
+    for k in 0..SEARCH_STEPS {
+        let (mut low, mut high) = (grid(k), grid(k + 1));
+        let at_low = function(low);
+        if at_low * function(high) >= 0.0 {
+            continue;
         }
+        while high - low > f64::EPSILON {
+            let middle = 0.5 * (low + high);
+            if function(middle) * at_low > 0.0 {
+                low = middle
+            } else {
+                high = middle
+            }
+        }
+        breaks.push(Break { t: high, kind });
     }
-    merge(&mut found);
-    breaks.append(&mut found);
 }
 
 /// Parameters closer than this are one break: the roots come with an error of about an ulp of 1 times their condition.
 const SAME_BREAK: f64 = 1e-11;
 
 /// Sorts breaks and keeps one of several at one place: a cusp before an inflection before a vertex.
-fn merge(breaks: &mut Vec<Break>) {
+pub(crate) fn merge(breaks: &mut Vec<Break>) {
     let rank = |kind: BreakKind| match kind {
         BreakKind::Cusp => 0,
         BreakKind::Inflection => 1,
@@ -346,6 +353,11 @@ fn legs(cubic: &[DVec2; 4]) -> [DVec2; 3] {
     ]
 }
 
+/// Bernstein coefficients of det(D, D') / 2, with the hodograph D = r'/3 of these legs.
+fn bend([d0, d1, d2]: [DVec2; 3]) -> [f64; 3] {
+    [d0.perp_dot(d1), 0.5 * d0.perp_dot(d2), d1.perp_dot(d2)]
+}
+
 /// A determinant of legs below this share of the squared size of the cubic is zero: the rounding of the differences
 /// of control points whose own last digits are rounded.
 const STRAIGHT: f64 = 1e-13;
@@ -387,36 +399,41 @@ impl PlaneCurve for CubicPath {
         bend <= STRAIGHT * size * size
     }
 
-    fn breaks(&self, span: usize, breaks: &mut Vec<Break>) {
-        let [d0, d1, d2] = legs(&self.cubics[span]);
-        // det(D, D') / 2 with the hodograph D = r'/3.
-        let bend = [d0.perp_dot(d1), 0.5 * d0.perp_dot(d2), d1.perp_dot(d2)];
-        let old = breaks.len();
-        if self.is_straight(span) {
-            let chord = d0 + d1 + d2;
-            let along = if chord.length() > 0.0 {
-                chord
-            } else {
-                [d0, d1, d2][usize::from(d0 == DVec2::ZERO)]
-            };
-            push_roots(&[d0, d1, d2].map(|d| d.dot(along)), BreakKind::Cusp, breaks);
-        } else {
-            let vertex = vertex_polynomial([d0, d1, d2], bend);
-            if one_signed(&bend) && one_signed(&vertex) {
+    fn inflections(&self, span: usize, breaks: &mut Vec<Break>) {
+        let legs = legs(&self.cubics[span]);
+        let bend = bend(legs);
+        if !self.is_straight(span) {
+            if one_signed(&bend) {
                 return;
             }
-            if let Some(t) = interior_zero([d0, d1, d2], bend) {
+            if let Some(t) = interior_zero(legs, bend) {
                 breaks.push(Break {
                     t,
                     kind: BreakKind::Cusp,
                 });
             }
             push_roots(&bend, BreakKind::Inflection, breaks);
-            push_roots(&vertex, BreakKind::Vertex, breaks);
+            return;
         }
-        let mut found = breaks.split_off(old);
-        merge(&mut found);
-        breaks.append(&mut found);
+        let [d0, d1, d2] = legs;
+        let chord = d0 + d1 + d2;
+        let along = if chord.length() > 0.0 {
+            chord
+        } else {
+            legs[usize::from(d0 == DVec2::ZERO)]
+        };
+        push_roots(&legs.map(|d| d.dot(along)), BreakKind::Cusp, breaks);
+    }
+
+    fn vertices(&self, span: usize, breaks: &mut Vec<Break>) {
+        if !self.is_straight(span) {
+            let legs = legs(&self.cubics[span]);
+            push_roots(
+                &vertex_polynomial(legs, bend(legs)),
+                BreakKind::Vertex,
+                breaks,
+            );
+        }
     }
 
     fn direction(&self, span: usize, t: f64, side: Side) -> DVec2 {
@@ -519,36 +536,31 @@ impl PlaneCurve for BezierCurve<DVec2> {
             .all(|c| c.abs() <= STRAIGHT * size * size * size)
     }
 
-    fn breaks(&self, span: usize, breaks: &mut Vec<Break>) {
+    fn inflections(&self, span: usize, breaks: &mut Vec<Break>) {
         let h = homogeneous(self);
-        let weight: Vec<f64> = h.iter().map(|x| x.x).collect();
-        let n = h.len() - 1;
-        // The velocity times the squared weight, w X' - w' X, is n times the moment of the two sub-curves.
-        let velocity = bernstein::product_with(&h[..n], &h[1..], |a, b| {
-            DVec2::new(a.x * b.y - a.y * b.x, a.x * b.z - a.z * b.x)
-        });
-        let old = breaks.len();
-        if self.is_straight(span) {
-            let along = velocity.iter().copied().fold(DVec2::ZERO, |sum, v| sum + v);
-            let along = if along == DVec2::ZERO {
-                velocity.first().copied().unwrap_or(DVec2::X)
-            } else {
-                along
-            };
-            let rate: Vec<f64> = velocity.iter().map(|v| v.dot(along)).collect();
-            push_roots(&rate, BreakKind::Cusp, breaks);
-        } else {
-            let bend = bend_polynomial(&h);
-            push_roots(&bend, BreakKind::Inflection, breaks);
-            push_roots(
-                &rational_vertex_polynomial(&bend, &weight, &velocity),
-                BreakKind::Vertex,
-                breaks,
-            );
+        if !self.is_straight(span) {
+            push_roots(&bend_polynomial(&h), BreakKind::Inflection, breaks);
+            return;
         }
-        let mut found = breaks.split_off(old);
-        merge(&mut found);
-        breaks.append(&mut found);
+        let velocity = velocity_polynomial(&h);
+        let along = velocity.iter().copied().fold(DVec2::ZERO, |sum, v| sum + v);
+        let along = if along == DVec2::ZERO {
+            velocity.first().copied().unwrap_or(DVec2::X)
+        } else {
+            along
+        };
+        let rate: Vec<f64> = velocity.iter().map(|v| v.dot(along)).collect();
+        push_roots(&rate, BreakKind::Cusp, breaks);
+    }
+
+    fn vertices(&self, span: usize, breaks: &mut Vec<Break>) {
+        if !self.is_straight(span) {
+            let h = homogeneous(self);
+            let weight: Vec<f64> = h.iter().map(|x| x.x).collect();
+            let rate =
+                rational_vertex_polynomial(&bend_polynomial(&h), &weight, &velocity_polynomial(&h));
+            push_roots(&rate, BreakKind::Vertex, breaks);
+        }
     }
 
     fn direction(&self, _span: usize, t: f64, side: Side) -> DVec2 {
@@ -572,6 +584,15 @@ fn homogeneous(curve: &BezierCurve<DVec2>) -> Vec<DVec3> {
         .iter()
         .map(|m| DVec3::new(m.weight, m.weighted.x, m.weighted.y))
         .collect()
+}
+
+/// Bernstein coefficients of `w X' - w' X` up to a positive factor: the velocity times the squared weight, the moment of
+/// the last two points of de Casteljau's scheme.
+fn velocity_polynomial(h: &[DVec3]) -> Vec<DVec2> {
+    let n = h.len() - 1;
+    bernstein::product_with(&h[..n], h.get(1..).unwrap_or_default(), |a, b| {
+        DVec2::new(a.x * b.y - a.y * b.x, a.x * b.z - a.z * b.x)
+    })
 }
 
 /// Bernstein coefficients of `det(H, H', H'')` up to a positive factor: the determinant of the last three points of

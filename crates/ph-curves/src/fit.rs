@@ -1,0 +1,391 @@
+//! What replaces a part of a curve, and how far it is from it.
+
+use glam::DVec2;
+
+use crate::curvature_element::EQUAL_RADII;
+use crate::plane_curve::curvature;
+use crate::{
+    Approximation, Arcs, BreakKind, CurvatureElement, Error, G1Ends, G2Pair, Joint, LineElement,
+    PhArc, PlaneCurve, Side, SupportJet, TQuartic,
+};
+
+/// Cosine of the largest turning of one attempt, somewhat below the half turn at which arcs end to exist.
+const MOST_TURNING_COSINE: f64 = -0.94;
+/// Turning below which the radii at a joint lose their digits (relative error some eps / h): G1 arcs.
+const LEAST_G2_TURNING: f64 = 1e-7;
+/// Turning below which there are no arcs, but corners and segments.
+const LEAST_TURNING: f64 = 1e-12;
+/// A radius of more than so many chords counts as that of an inflection.
+const FLAT: f64 = 1e7;
+/// A radius of less than this share of the chord counts as that of a cusp: its digits are lost in those of the arc.
+const SHARP: f64 = 1e-6;
+/// Interior samples of the error per attempt, over both arcs of a pair.
+const SAMPLES: usize = 6;
+/// The true error exceeds the sampled one by a little; measured up to 1.15 on a thousand random splines.
+const PEAK: f64 = 1.16;
+/// The same for arcs of class 9, whose error has more peaks; the order makes the factor cheap.
+const WIDE_PEAK: f64 = 2.0;
+
+/// One end of an interval: the curve's point, right-hand unit normal and signed curvature there, 0 at inflections and
+/// infinite at cusps.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct End {
+    pub(crate) t: f64,
+    pub(crate) point: DVec2,
+    pub(crate) normal: DVec2,
+    pub(crate) curvature: f64,
+}
+
+impl End {
+    /// The end at `t`, with the one-sided tangent where the derivative vanishes.
+    pub(crate) fn at<C: PlaneCurve + ?Sized>(
+        curve: &C,
+        span: usize,
+        t: f64,
+        side: Side,
+    ) -> Result<Self, Error> {
+        let [point, first, second] = curve.jet(span, t);
+        if !(point.is_finite() && first.is_finite() && second.is_finite()) {
+            return Err(Error::NonFinite {
+                what: "a point or derivative of the curve",
+            });
+        }
+        let direction = curve.direction(span, t, side);
+        let normal = -direction.normalize_or_zero().perp();
+        let vanished = direction != first;
+        let curvature = if vanished {
+            f64::INFINITY
+        } else {
+            curvature(first, second)
+        };
+        Ok(Self {
+            t,
+            point,
+            normal,
+            curvature,
+        })
+    }
+}
+
+/// The curvature that is meant at a break: computed values there are rounding.
+pub(crate) fn tagged(curvature: f64, kind: BreakKind) -> f64 {
+    match kind {
+        BreakKind::Inflection => 0.0,
+        BreakKind::Cusp => f64::INFINITY.copysign(curvature),
+        BreakKind::Vertex => curvature,
+    }
+}
+
+/// Whether a curvature is neither zero nor infinite.
+pub(crate) fn regular(curvature: f64) -> bool {
+    curvature != 0.0 && curvature.is_finite()
+}
+
+/// A part of a span without inflection; for arcs of class 3 also without vertex.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Interval {
+    pub(crate) span: usize,
+    pub(crate) start: End,
+    pub(crate) end: End,
+    pub(crate) depth: u32,
+}
+
+/// What replaces an interval of the curve; arcs are about its start point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Fit {
+    /// Two arcs of class 3 with the curve's curvatures at both ends.
+    Pair([TQuartic; 2]),
+    /// One arc of class 3 with the curve's tangents.
+    Single(TQuartic),
+    /// One arc of class 9 with the curve's curvatures at both ends.
+    Wide(PhArc<10>),
+    /// A corner, a segment and a corner.
+    Bridge,
+}
+
+/// An attempt: the fit, its measured error, and whether its end curvatures are those of the curve.
+pub(crate) struct Attempt {
+    pub(crate) fit: Fit,
+    pub(crate) error: f64,
+    pub(crate) matched: bool,
+}
+
+/// Finds a fit for intervals of a curve.
+pub(crate) struct Fitter<'a, C: ?Sized> {
+    pub(crate) curve: &'a C,
+    pub(crate) how: &'a Approximation,
+}
+
+impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
+    /// The best fit of one interval with its measured error; none if there is no arc.
+    pub(crate) fn attempt(&self, interval: &Interval) -> Option<Attempt> {
+        let Interval { start, end, .. } = interval;
+        let chord = (end.point - start.point).length();
+        let cosine = start.normal.dot(end.normal);
+        let sine = start.normal.perp_dot(end.normal);
+        if sine.abs() > LEAST_TURNING && cosine > MOST_TURNING_COSINE {
+            let resolved = (FLAT.recip() / chord)..(SHARP.recip() / chord);
+            let elements = sine.abs() > LEAST_G2_TURNING
+                && [start, end]
+                    .iter()
+                    .all(|e| resolved.contains(&e.curvature.abs()))
+                && start.curvature * end.curvature > 0.0;
+            let curved = match self.how.arcs {
+                Arcs::Class3 if elements && self.how.continuity == Joint::G2 => self.pair(interval),
+                Arcs::Class9 if elements => self.wide(interval),
+                _ => None,
+            };
+            if let Some(attempt) = curved.or_else(|| self.single(interval, chord)) {
+                return Some(attempt);
+            }
+        }
+        self.bridge(interval, chord)
+    }
+
+    /// Two arcs of class 3 with the curvatures of the ends.
+    fn pair(&self, interval: &Interval) -> Option<Attempt> {
+        let Interval { start, end, .. } = interval;
+        let difference = (start.curvature - end.curvature).abs();
+        if difference <= EQUAL_RADII * start.curvature.abs().max(end.curvature.abs()) {
+            return None;
+        }
+        let element = |e: &End| {
+            CurvatureElement::from_unit(e.point - start.point, e.normal, e.curvature.recip())
+        };
+        let pair = G2Pair::new(&element(start), &element(end), self.how.beta).ok()?;
+        let probes = pair.arcs.map(|arc| Probe::new(&arc));
+        let joint = pair.joint.normal();
+        let sense = start.normal.perp_dot(joint);
+        let error = self.largest_difference(interval, &EVEN_SHARES, |normal| {
+            let beyond = joint.perp_dot(normal) * sense > 0.0;
+            probes[usize::from(beyond)].support(normal)
+        })?;
+        Some(Attempt {
+            fit: Fit::Pair(pair.arcs),
+            error,
+            matched: true,
+        })
+    }
+
+    /// One arc of class 3 with G1 contact, its shape fitted to inner tangents.
+    fn single(&self, interval: &Interval, chord: f64) -> Option<Attempt> {
+        let Interval { start, end, .. } = interval;
+        let element = |e: &End| LineElement::from_unit(e.point - start.point, e.normal);
+        let ends = G1Ends::between(element(start), element(end));
+        let samples = [0.25, 0.5, 0.75].map(|share| self.tangent(interval, share));
+        let alpha = ends.clamp_alpha(ends.fit_alpha(samples)).ok()?;
+        let arc = ends.arc_of_positive(alpha);
+        let probe = Probe::new(&arc);
+        let error =
+            self.largest_difference(interval, &EVEN_SHARES, |normal| probe.support(normal))?;
+        let [r0, r1] = ends.end_radii(alpha);
+        let agrees = |radius: f64, curvature: f64| {
+            (radius * curvature - 1.0).abs() <= EQUAL_RADII.max(f64::EPSILON * radius.abs() / chord)
+        };
+        let matched = agrees(r0, start.curvature) && agrees(r1, end.curvature);
+        Some(Attempt {
+            fit: Fit::Single(arc),
+            error,
+            matched,
+        })
+    }
+
+    /// One arc of class 9: six support coefficients from the elements at the ends, four from tangents in between.
+    fn wide(&self, interval: &Interval) -> Option<Attempt> {
+        let Interval { start, end, .. } = interval;
+        let jet = |e: &End, sense: f64| {
+            let jet = SupportJet::of_element(e.point - start.point, e.normal, e.curvature.recip());
+            SupportJet {
+                slope: sense * jet.slope,
+                ..jet
+            }
+        };
+        let ends = G1Ends::between(
+            LineElement::from_unit(DVec2::ZERO, start.normal),
+            LineElement::from_unit(DVec2::ZERO, end.normal),
+        );
+        let (cosine, sine) = ends.half_turning();
+        let first = jet(start, 1.0).coefficients((sine, cosine), 9);
+        let last = jet(end, -1.0).coefficients((sine, cosine), 9);
+        let mut g = [
+            first[0], first[1], first[2], 0.0, 0.0, 0.0, 0.0, last[2], last[1], last[0],
+        ];
+
+        // With x = t/(1-t) the remainder over t^3 (1-t)^6 is a cubic in x: Newton's divided differences.
+        let frame = Probe {
+            w0: ends.unit_spinors().0,
+            w1: ends.unit_spinors().1,
+            start: start.normal,
+            g,
+        };
+        let (mut x, mut c) = ([0.0; 4], [0.0; 4]);
+        for (k, share) in WIDE_NODES.into_iter().enumerate() {
+            let (normal, support) = self.tangent(interval, share);
+            let (s, t) = frame.parameter(normal)?;
+            let weight = (frame.w0 * s + frame.w1 * t).length_squared();
+            let cube = s * s * s;
+            x[k] = t / s;
+            c[k] = (support * weight - bernstein_9(&g, s, t)) / (t * t * t * cube * cube);
+        }
+        for level in 1..4 {
+            for k in (level..4).rev() {
+                c[k] = (c[k] - c[k - 1]) / (x[k] - x[k - level]);
+            }
+        }
+        let mut cubic = [c[3], 0.0, 0.0, 0.0];
+        for k in (0..3).rev() {
+            for i in (1..4).rev() {
+                cubic[i] = cubic[i - 1] - x[k] * cubic[i];
+            }
+            cubic[0] = c[k] - x[k] * cubic[0];
+        }
+        for (i, binomial) in [84.0, 126.0, 126.0, 84.0].into_iter().enumerate() {
+            g[3 + i] = cubic[i] / binomial;
+        }
+        let arc = PhArc::from_parts(frame.w0, frame.w1, g);
+        let probe = Probe { g, ..frame };
+        let error =
+            self.largest_difference(interval, &WIDE_SHARES, |normal| probe.support_9(normal))?;
+        let error = WIDE_PEAK / PEAK * error;
+        // Bernstein coefficients of one sign certify that the arc has no cusp.
+        let radius = arc.radius_polynomial();
+        let certified = radius.iter().all(|r| r * start.curvature > 0.0);
+        certified.then_some(Attempt {
+            fit: Fit::Wide(arc),
+            error,
+            matched: true,
+        })
+    }
+
+    /// A corner, a segment and a corner: right where all of the interval is closer to its chord than the tolerance.
+    fn bridge(&self, interval: &Interval, chord: f64) -> Option<Attempt> {
+        let Interval {
+            span, start, end, ..
+        } = *interval;
+        let along = (end.point - start.point).try_normalize();
+        let mut error = 0.0_f64;
+        for share in EVEN_SHARES {
+            let [point, ..] = self.curve.jet(span, start.t + (end.t - start.t) * share);
+            let from = point - start.point;
+            let distance = along.map_or(from.length(), |along| {
+                let nearest = along * from.dot(along).clamp(0.0, chord);
+                (from - nearest).length()
+            });
+            error = error.max(distance);
+        }
+        // A segment replaces a turning curve only where nothing of it can be seen; the factor leaves room for what the
+        // samples miss on a piece that may loop.
+        let error = 2.0 * error;
+        (error <= self.how.tolerance).then_some(Attempt {
+            fit: Fit::Bridge,
+            error,
+            matched: false,
+        })
+    }
+
+    /// Unit normal and support about the start point of the interval, at a share of its parameters.
+    #[inline]
+    fn tangent(&self, interval: &Interval, share: f64) -> (DVec2, f64) {
+        let (t0, t1) = (interval.start.t, interval.end.t);
+        let [point, first, _] = self.curve.jet(interval.span, t0 + (t1 - t0) * share);
+        let normal = -first.normalize_or_zero().perp();
+        (normal, normal.dot(point - interval.start.point))
+    }
+
+    /// Largest difference of supports at inner samples; none if a normal of the curve does not occur on the arcs.
+    #[inline]
+    fn largest_difference(
+        &self,
+        interval: &Interval,
+        shares: &[f64],
+        fitted: impl Fn(DVec2) -> Option<f64>,
+    ) -> Option<f64> {
+        let mut error = 0.0_f64;
+        for &share in shares {
+            let (normal, support) = self.tangent(interval, share);
+            error = error.max((fitted(normal)? - support).abs());
+        }
+        Some(PEAK * error)
+    }
+}
+
+/// Shares at which the error of arcs of class 3 is sampled.
+const EVEN_SHARES: [f64; SAMPLES] = [
+    1.0 / 7.0,
+    2.0 / 7.0,
+    3.0 / 7.0,
+    4.0 / 7.0,
+    5.0 / 7.0,
+    6.0 / 7.0,
+];
+/// Zeros of the ultraspherical polynomial of degree 4 for the weight `t^3 (1-t)^3`, the interpolation nodes of class 9.
+const WIDE_NODES: [f64; 4] = [0.1797, 0.387, 0.613, 0.8203];
+/// Shares between these nodes, where the error peaks.
+const WIDE_SHARES: [f64; 5] = [0.1, 0.28, 0.5, 0.72, 0.9];
+
+/// An arc prepared for many evaluations of its support by the normal.
+struct Probe<const N: usize> {
+    w0: DVec2,
+    w1: DVec2,
+    start: DVec2,
+    g: [f64; N],
+}
+
+impl<const N: usize> Probe<N> {
+    /// Barycentric parameter `(1 - t, t)` of a unit normal; none (but for a slack of rounding) outside of the arc.
+    #[inline]
+    fn parameter(&self, normal: DVec2) -> Option<(f64, f64)> {
+        let (cosine, sine) = (self.start.dot(normal), self.start.perp_dot(normal));
+        let spinor = self.w0.rotate(DVec2::new(1.0 + cosine, sine));
+        let (a, b) = (self.w0.perp_dot(spinor), spinor.perp_dot(self.w1));
+        let scale = 1.0 / (a + b);
+        let (t, s) = (a * scale, b * scale);
+        (t >= -1e-9 && s >= -1e-9).then_some((s, t))
+    }
+}
+
+impl Probe<4> {
+    fn new(arc: &TQuartic) -> Self {
+        let (w0, w1) = arc.spinors();
+        Self {
+            w0,
+            w1,
+            start: arc.normal(0.0),
+            g: *arc.coefficients(),
+        }
+    }
+
+    #[inline]
+    fn support(&self, normal: DVec2) -> Option<f64> {
+        let (s, t) = self.parameter(normal)?;
+        let [g0, g1, g2, g3] = self.g;
+        let value = s * s * (s * g0 + 3.0 * t * g1) + t * t * (3.0 * s * g2 + t * g3);
+        Some(value / (self.w0 * s + self.w1 * t).length_squared())
+    }
+}
+
+impl Probe<10> {
+    #[inline]
+    fn support_9(&self, normal: DVec2) -> Option<f64> {
+        let (s, t) = self.parameter(normal)?;
+        Some(bernstein_9(&self.g, s, t) / (self.w0 * s + self.w1 * t).length_squared())
+    }
+}
+
+/// Value of a Bernstein polynomial of degree 9 at `t = 1 - s`, as two halves of Horner's scheme.
+#[inline]
+fn bernstein_9(g: &[f64; 10], s: f64, t: f64) -> f64 {
+    let (s2, t2) = (s * s, t * t);
+    let (s4, t4) = (s2 * s2, t2 * t2);
+    let low = s4 * s * g[0]
+        + 9.0 * s4 * t * g[1]
+        + 36.0 * s2 * s * t2 * g[2]
+        + 84.0 * s2 * t2 * t * g[3]
+        + 126.0 * s * t4 * g[4];
+    let high = 126.0 * s4 * t * g[5]
+        + 84.0 * s2 * s * t2 * g[6]
+        + 36.0 * s2 * t2 * t * g[7]
+        + 9.0 * s * t4 * g[8]
+        + t4 * t * g[9];
+    s4 * low + t4 * high
+}
