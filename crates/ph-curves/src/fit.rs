@@ -23,7 +23,8 @@ const SHARP: f64 = 1e-6;
 const SAMPLES: usize = 6;
 /// The true error exceeds the sampled one by a little; measured up to 1.15 on a thousand random splines.
 const PEAK: f64 = 1.16;
-/// The same for arcs of class 9, whose error has more peaks; the order makes the factor cheap.
+/// The same where arcs of class 9 are wanted: their error has more peaks, and parts are not cut at vertices. The order
+/// makes the factor cheap.
 const WIDE_PEAK: f64 = 2.0;
 
 /// One end of an interval: the curve's point, right-hand unit normal and signed curvature there, 0 at inflections and
@@ -246,7 +247,6 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         let probe = Probe { g, ..frame };
         let error =
             self.largest_difference(interval, &WIDE_SHARES, |normal| probe.support_9(normal))?;
-        let error = WIDE_PEAK / PEAK * error;
         // Bernstein coefficients of one sign certify that the arc has no cusp.
         let radius = arc.radius_polynomial();
         let certified = radius.iter().all(|r| r * start.curvature > 0.0);
@@ -305,7 +305,11 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
             let (normal, support) = self.tangent(interval, share);
             error = error.max((fitted(normal)? - support).abs());
         }
-        Some(PEAK * error)
+        Some(if self.how.arcs == Arcs::Class3 {
+            PEAK * error
+        } else {
+            WIDE_PEAK * error
+        })
     }
 }
 

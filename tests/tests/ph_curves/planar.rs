@@ -414,7 +414,7 @@ fn g2_approximate(case: &Case<'_>) -> Result<(), Error> {
         .zip(&result.sources)
         .filter_map(|(piece, source)| match piece {
             Piece::Arc(arc) => Some((arc.arc(), *source)),
-            Piece::Segment(_) => None,
+            _ => None,
         })
         .collect();
     let mut error = 0.0_f64;
