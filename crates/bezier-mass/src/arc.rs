@@ -214,6 +214,8 @@ impl<V: VectorSpace> Quadratic<V> {
         let big_b = -b * w1 / w0;
         let middle = MassPoint::vector(h0.weighted.times(big_b).plus(h1.weighted.times(b)));
         let end = h0 * (big_b * big_b) + h1 * (2.0 * b * big_b) + h2 * (b * b);
+        // The sum's weight is this up to rounding, and the ends' weights should cancel exactly where they do.
+        let end = MassPoint::from_homogeneous(-w0 * discriminant.signum(), end.weighted);
         Self::new([h0, middle, end])
     }
 

@@ -77,6 +77,10 @@ impl<V: VectorSpace> Biquadratic<V> {
     }
 
     /// Whether a weight computed at `(u, v)` is far above its rounding error.
+    #[expect(
+        clippy::manual_range_contains,
+        reason = "without branches it costs nothing"
+    )]
     #[inline]
     pub(crate) fn is_clear(&self, weight: f64, u: f64, v: f64) -> bool {
         let inside = (u >= 0.0) & (u <= 1.0) & (v >= 0.0) & (v <= 1.0);

@@ -37,7 +37,7 @@ use crate::demo::write_atomically;
 
 // Modules: replace your comment by your line, keep the empty lines, so that merges do not collide.
 
-// mod bezier_mass;
+mod bezier_mass;
 
 // mod cyclide;
 
@@ -59,7 +59,7 @@ mod render;
 #[must_use]
 pub fn all() -> Vec<Entry> {
     vec![
-        // entry::<bezier_mass::BezierMass>(),
+        entry::<bezier_mass::BezierMass>(),
 
         // entry::<cyclide::Cyclide>(),
 

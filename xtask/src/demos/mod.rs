@@ -73,7 +73,7 @@
 
 // mod geodesic_surface;
 
-// mod mass_points;
+mod mass_points;
 
 // mod minkowski;
 
@@ -129,7 +129,7 @@ pub fn all() -> Vec<Entry> {
 
         // entry::<geodesic_surface::GeodesicSurface>(),
 
-        // entry::<mass_points::MassPoints>(),
+        entry::<mass_points::MassPoints>(),
 
         // entry::<minkowski::Minkowski>(),
 
