@@ -55,11 +55,11 @@
 
 // mod caustics;
 
-// mod cone;
+mod cone;
 
 // mod cone_blend;
 
-// mod cyclide_to_cone;
+mod cyclide_to_cone;
 
 // mod cyclide_zoo;
 
@@ -110,13 +110,9 @@ pub fn all() -> Vec<Entry> {
         // entry::<biquadratic::Biquadratic>(),
 
         // entry::<caustics::Caustics>(),
-
-        // entry::<cone::Cone>(),
-
+        entry::<cone::Cone>(),
         // entry::<cone_blend::ConeBlend>(),
-
-        // entry::<cyclide_to_cone::CyclideToCone>(),
-
+        entry::<cyclide_to_cone::CyclideToCone>(),
         // entry::<cyclide_zoo::CyclideZoo>(),
 
         // entry::<dual_control::DualControl>(),
