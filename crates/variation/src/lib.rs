@@ -8,6 +8,7 @@ mod error;
 mod exact;
 mod isolate;
 mod line;
+mod low_degree;
 mod meet;
 mod polar;
 #[cfg(feature = "exact")]

@@ -4,6 +4,7 @@ use crate::Error;
 #[cfg(feature = "exact")]
 use crate::exact::{self, Decomposition};
 use crate::isolate::{self, Finding, Findings, Node, Values, node_capacity, rows_len};
+use crate::low_degree;
 use crate::root::{Count, INLINE, Interval, Root, Roots};
 use crate::rounding::{BINOMIALS, Evaluator, MAX_FLOAT_DEGREE, SAFE_EXPONENT, U, evaluator_len};
 use crate::sharp::{Sharp, sharp_len};
@@ -250,6 +251,31 @@ fn solve(
     if input.zeros.0 == coefficients.len() {
         return Err(Error::IdenticallyZero);
     }
+    if input.error == 0.0 && input.zeros == (0, 0) && coefficients.len() <= 6 {
+        let mut list = List {
+            roots: &mut *scratch.roots,
+            len: 0,
+            interval,
+        };
+        if list
+            .low_degree(coefficients, largest, options.tolerance)
+            .is_some()
+        {
+            return Ok(list.len);
+        }
+    }
+    solve_general(input, largest, interval, options, scratch)
+}
+
+/// Any degree.
+fn solve_general(
+    input: &Input<'_>,
+    largest: f64,
+    interval: Interval,
+    options: Options,
+    scratch: Scratch<'_>,
+) -> Result<usize, Error> {
+    let coefficients = input.coefficients;
     let certain = |p: Option<&f64>| p.is_some_and(|p| p.abs() > input.error);
     let (at_zero, at_one) = input.zeros;
     let inner = &coefficients[at_zero..coefficients.len() - at_one];
@@ -459,6 +485,10 @@ impl Fixed {
     }
 }
 
+/// `2^-400` and `2^400`, see [`SAFE_EXPONENT`].
+const SAFE_LEAST: f64 = power_of_two(-SAFE_EXPONENT);
+const SAFE_MOST: f64 = power_of_two(SAFE_EXPONENT);
+
 /// The exponent of the leading bit of a positive number.
 fn exponent_of(x: f64) -> i32 {
     let biased = ((x.to_bits() >> 52) & 0x7ff) as i32;
@@ -469,9 +499,17 @@ fn exponent_of(x: f64) -> i32 {
     }
 }
 
-/// `2^exponent` for exponents of normal numbers.
-fn power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(((exponent + 1023).clamp(1, 2046) as u64) << 52)
+/// `2^exponent`, for normal numbers.
+const fn power_of_two(exponent: i32) -> f64 {
+    let biased = exponent + 1023;
+    let biased = if biased < 1 {
+        1
+    } else if biased > 2046 {
+        2046
+    } else {
+        biased
+    };
+    f64::from_bits((biased as u64) << 52)
 }
 
 /// Roots in the order of their discovery, mapped to the interval.
@@ -491,6 +529,37 @@ impl List<'_> {
                 count: root.count,
             };
             self.len += 1;
+        }
+    }
+}
+
+impl List<'_> {
+    /// The direct path of degrees 1 to 5, for nonzero ends. `None` where it cannot decide; the list is then as before.
+    #[inline]
+    fn low_degree(&mut self, coefficients: &[f64], largest: f64, tolerance: f64) -> Option<()> {
+        if !(SAFE_LEAST..=SAFE_MOST).contains(&largest) {
+            return None;
+        }
+        match *coefficients {
+            [_] => {}
+            [a, b] => self.extend(&low_degree::linear([a, b])),
+            [a, b, c] => self.extend(&low_degree::quadratic([a, b, c], tolerance)?),
+            [a, b, c, d] => self.extend(&low_degree::roots(&[a, b, c, d], largest, tolerance)?),
+            [a, b, c, d, e] => {
+                self.extend(&low_degree::roots(&[a, b, c, d, e], largest, tolerance)?)
+            }
+            [a, b, c, d, e, f] => {
+                self.extend(&low_degree::roots(&[a, b, c, d, e, f], largest, tolerance)?)
+            }
+            _ => return None,
+        }
+        Some(())
+    }
+
+    #[inline]
+    fn extend<const N: usize>(&mut self, found: &low_degree::Enclosures<N>) {
+        for &(lo, hi) in &found.spans[..found.len] {
+            self.push(Root::exactly(lo, hi, 1));
         }
     }
 }

@@ -1,0 +1,378 @@
+//! Degrees 1 to 5 on a direct path: everything in registers, sizes known to the compiler.
+//!
+//! Linear and quadratic polynomials have formulas whose rounding is bounded here. The others are split where Descartes' count
+//! is not yet 0 or 1 (a cubic at its extremum) and refined by Halley's method on the original coefficients; two certain signs
+//! close each enclosure. Whatever is uncertain returns `None`, and the general path takes over.
+
+use crate::rounding::U;
+
+/// Roots of one polynomial: ascending enclosures.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Enclosures<const N: usize> {
+    pub(crate) spans: [(f64, f64); N],
+    pub(crate) len: usize,
+}
+
+impl<const N: usize> Enclosures<N> {
+    const NONE: Self = Self {
+        spans: [(0.0, 0.0); N],
+        len: 0,
+    };
+
+    #[inline]
+    fn push(&mut self, span: (f64, f64)) -> Option<()> {
+        *self.spans.get_mut(self.len)? = span;
+        self.len += 1;
+        Some(())
+    }
+}
+
+/// The root of a linear polynomial whose coefficients have opposite signs. Two roundings, no cancellation.
+pub(crate) fn linear([a, b]: [f64; 2]) -> Enclosures<2> {
+    let mut found = Enclosures::NONE;
+    if (a < 0.0) != (b < 0.0) {
+        let t = a / (a - b);
+        found.spans[0] = around(t, 4.0 * U);
+        found.len = 1;
+    }
+    found
+}
+
+/// `t` with a relative error, kept within `[0, 1]`.
+fn around(t: f64, relative: f64) -> (f64, f64) {
+    (t * (1.0 - relative), (t * (1.0 + relative)).min(1.0))
+}
+
+/// The roots of a quadratic polynomial with nonzero ends; `None` if the discriminant is uncertain or too small for the tolerance.
+///
+/// In `r = t / (1-t)` it is `c r^2 + 2 b r + a`; both roots come from `q = -(b + sign(b) sqrt(d))` as `q / c` and `a / q`, which
+/// do not cancel.
+pub(crate) fn quadratic([a, b, c]: [f64; 3], tolerance: f64) -> Option<Enclosures<2>> {
+    let mut found = Enclosures::NONE;
+    let opposite = (a < 0.0) != (c < 0.0);
+    if !opposite && (b == 0.0 || (a < 0.0) == (b < 0.0)) {
+        return Some(found);
+    }
+    let (square, product) = (b * b, a * c);
+    let discriminant = square - product;
+    // Three roundings: each at most U times one of the terms or their sum.
+    let error = 2.0 * U * (square + product.abs());
+    if discriminant < -error {
+        return Some(found);
+    }
+    if !(discriminant > 4.0 * error) {
+        return None;
+    }
+    // Half the relative error of the discriminant, then the root, the sum, the quotient, and t = r / (1 + r).
+    let relative = error / discriminant + 8.0 * U;
+    if 2.0 * relative > tolerance {
+        return None;
+    }
+    let q = -(b + discriminant.sqrt().copysign(b));
+    let parameter = |numerator: f64, denominator: f64| numerator / (numerator + denominator);
+    if opposite {
+        let t = if (q < 0.0) == (c < 0.0) {
+            parameter(q, c)
+        } else {
+            parameter(a, q)
+        };
+        found.push(around(t, relative))?;
+    } else {
+        let (s, t) = (parameter(q, c), parameter(a, q));
+        found.push(around(s.min(t), relative))?;
+        found.push(around(s.max(t), relative))?;
+        if found.spans[0].1 >= found.spans[1].0 {
+            return None;
+        }
+    }
+    Some(found)
+}
+
+/// A polynomial of degree `M - 1` with what its evaluation needs.
+struct Small<const M: usize> {
+    /// `C(n,i) p_i`.
+    scaled: [f64; M],
+    /// `C(n-1,i)` times the coefficients of the derivative; the last entry is unused.
+    first: [f64; M],
+    /// Likewise of the second derivative; the last two entries are unused.
+    second: [f64; M],
+    /// Bound on the error of a value.
+    error: f64,
+}
+
+/// Binomials up to degree 5.
+const BINOMIALS: [[f64; 6]; 6] = [
+    [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [1.0, 1.0, 0.0, 0.0, 0.0, 0.0],
+    [1.0, 2.0, 1.0, 0.0, 0.0, 0.0],
+    [1.0, 3.0, 3.0, 1.0, 0.0, 0.0],
+    [1.0, 4.0, 6.0, 4.0, 1.0, 0.0],
+    [1.0, 5.0, 10.0, 10.0, 5.0, 1.0],
+];
+
+impl<const M: usize> Small<M> {
+    const DEGREE: usize = M - 1;
+
+    #[inline]
+    fn new(p: &[f64; M], largest: f64) -> Self {
+        let n = Self::DEGREE;
+        let mut scaled = [0.0; M];
+        let mut first = [0.0; M];
+        let mut second = [0.0; M];
+        for i in 0..M {
+            scaled[i] = BINOMIALS[n][i] * p[i];
+        }
+        for i in 0..n {
+            first[i] = (p[i + 1] - p[i]) * n as f64;
+        }
+        for i in 0..n - 1 {
+            second[i] = (first[i + 1] - first[i]) * (n - 1) as f64;
+        }
+        for i in 0..n {
+            first[i] *= BINOMIALS[n - 1][i];
+        }
+        for i in 0..n - 1 {
+            second[i] *= BINOMIALS[n - 2][i];
+        }
+        // A term c_i t^i (1-t)^(n-i) goes through at most 3 n + 1 roundings (i - 1 products of t, one with c_i, one of c_i
+        // itself, and in each later step 1 - t, a product and a sum); the terms sum to at most the largest coefficient.
+        Self {
+            scaled,
+            first,
+            second,
+            error: (3 * n + 3) as f64 * U * largest,
+        }
+    }
+
+    /// `sum c_i t^i s^(k-i)` for `i = 0..=k`.
+    #[inline]
+    fn sum(c: &[f64; M], k: usize, t: f64, s: f64) -> f64 {
+        let mut power = t;
+        let mut sum = c[0];
+        for &c in &c[1..=k] {
+            sum = sum * s + c * power;
+            power *= t;
+        }
+        sum
+    }
+
+    #[inline]
+    fn value(&self, t: f64) -> f64 {
+        Self::sum(&self.scaled, Self::DEGREE, t, 1.0 - t)
+    }
+
+    /// Whether the value is certainly negative (`Some(true)`) or positive.
+    #[inline]
+    fn is_negative(&self, t: f64) -> Option<bool> {
+        let value = self.value(t);
+        (value.abs() > self.error).then_some(value < 0.0)
+    }
+
+    /// Encloses the only root of a bracket.
+    #[inline]
+    fn refine(
+        &self,
+        bracket: (f64, f64),
+        negative_lo: bool,
+        guess: f64,
+        tolerance: f64,
+    ) -> Option<(f64, f64)> {
+        let (mut lo, mut hi) = bracket;
+        let mut x = guess;
+        for _ in 0..16 {
+            let s = 1.0 - x;
+            let value = Self::sum(&self.scaled, Self::DEGREE, x, s);
+            let first = Self::sum(&self.first, Self::DEGREE - 1, x, s);
+            let second = Self::sum(&self.second, Self::DEGREE - 2, x, s);
+            if (value < 0.0) == negative_lo {
+                lo = x;
+            } else {
+                hi = x;
+            }
+            let step = 2.0 * value * first / (2.0 * first * first - value * second);
+            let next = x - step;
+            if !(next >= lo && next <= hi) {
+                x = 0.5 * (lo + hi);
+                continue;
+            }
+            x = next;
+            if step.abs() > 1e-4 {
+                continue;
+            }
+            // Halley's error is about the cube of the step times the square of the curvature.
+            let bend = 0.5 * second.abs() * step.abs();
+            let slope = first.abs();
+            let reach = (4.0 * self.error + bend * bend * step.abs() / slope) / slope + 4.0 * U;
+            if reach > 0.45 * tolerance {
+                if step.abs() < 1e-9 {
+                    return None;
+                }
+                continue;
+            }
+            let (left, right) = ((x - reach).max(bracket.0), (x + reach).min(bracket.1));
+            let certain_left = left == bracket.0 || self.is_negative(left) == Some(negative_lo);
+            let certain_right = right == bracket.1 || self.is_negative(right) == Some(!negative_lo);
+            if certain_left && certain_right {
+                return Some((left, right));
+            }
+            if step.abs() < 1e-9 {
+                return None;
+            }
+        }
+        None
+    }
+}
+
+#[inline]
+fn sign_changes<const M: usize>(p: &[f64; M]) -> u64 {
+    let mut changes = 0;
+    for i in 1..M {
+        changes += (p[i].to_bits() ^ p[i - 1].to_bits()) >> 63;
+    }
+    changes
+}
+
+/// A part of the interval with its coefficients.
+#[derive(Clone, Copy)]
+struct Piece<const M: usize> {
+    lo: f64,
+    hi: f64,
+    p: [f64; M],
+}
+
+/// Parts that may wait, and splits, before the general path takes over.
+const MAX_PIECES: usize = 4;
+const MAX_SPLITS: usize = 6;
+
+/// The roots of a polynomial of degree 3 to 5 with nonzero ends and the given largest magnitude.
+#[inline]
+pub(crate) fn roots<const M: usize>(
+    p: &[f64; M],
+    largest: f64,
+    tolerance: f64,
+) -> Option<Enclosures<M>> {
+    let mut found = Enclosures::NONE;
+    // A zero coefficient takes part with either sign: that can only raise the count, by an even number.
+    let changes = sign_changes(p);
+    if changes == 0 {
+        return Some(found);
+    }
+    let small = Small::new(p, largest);
+    let whole = Piece {
+        lo: 0.0,
+        hi: 1.0,
+        p: *p,
+    };
+    if changes == 1 {
+        found.push(small.refine((0.0, 1.0), p[0] < 0.0, crossing(p), tolerance)?)?;
+        return Some(found);
+    }
+    // A row of a split costs each term three roundings; the rounded split parameter costs at most twice the degree in units
+    // of U * largest, the slope of F.
+    let split_error = (5 * M * MAX_SPLITS) as f64 * U * largest;
+    let mut waiting = [whole; MAX_PIECES];
+    let mut len = 1;
+    let mut splits = 0;
+    while len > 0 {
+        len -= 1;
+        let piece = waiting[len];
+        match sign_changes(&piece.p) {
+            0 => {}
+            1 => {
+                let guess = piece.lo + (piece.hi - piece.lo) * crossing(&piece.p);
+                found.push(small.refine(
+                    (piece.lo, piece.hi),
+                    piece.p[0] < 0.0,
+                    guess,
+                    tolerance,
+                )?)?;
+            }
+            _ => {
+                splits += 1;
+                if splits > MAX_SPLITS || len + 2 > MAX_PIECES {
+                    return None;
+                }
+                let z = if M == 4 { extremum(&piece.p) } else { 0.5 };
+                let (left, right) = piece.split(z);
+                let inner_certain =
+                    certain_inside(&left.p, split_error) && certain_inside(&right.p, split_error);
+                if !inner_certain || !(right.p[0].abs() > split_error) {
+                    return None;
+                }
+                waiting[len] = right;
+                waiting[len + 1] = left;
+                len += 2;
+            }
+        }
+    }
+    Some(found)
+}
+
+/// Whether all but the two ends have certain signs.
+#[inline]
+fn certain_inside<const M: usize>(p: &[f64; M], error: f64) -> bool {
+    let mut certain = true;
+    for value in &p[1..M - 1] {
+        certain &= value.abs() > error;
+    }
+    certain
+}
+
+/// Where the control polygon first crosses zero.
+#[inline]
+fn crossing<const M: usize>(p: &[f64; M]) -> f64 {
+    for i in 1..M {
+        if (p[i] < 0.0) != (p[i - 1] < 0.0) {
+            return ((i - 1) as f64 + p[i - 1] / (p[i - 1] - p[i])) / (M - 1) as f64;
+        }
+    }
+    0.5
+}
+
+/// The parameter of the extremum that a cubic with the sign of `p_0` has against that sign, or 1/2.
+#[inline]
+fn extremum<const M: usize>(p: &[f64; M]) -> f64 {
+    let (a, b, c) = (p[1] - p[0], p[2] - p[1], p[3] - p[2]);
+    let discriminant = b * b - a * c;
+    if !(discriminant > 0.0) {
+        return 0.5;
+    }
+    // a s^2 + 2 b s t + c t^2 = 0; the sign of the root decides between minimum and maximum.
+    let root = discriminant.sqrt().copysign(p[0]);
+    // Minimum (p_0 > 0): the derivative grows through zero. t / s = (-b + root) / c = a / (-b - root).
+    let z = if (b < 0.0) == (root > 0.0) {
+        let up = root - b;
+        up / (up + c)
+    } else {
+        let down = -b - root;
+        a / (a + down)
+    };
+    if z > 0.01 && z < 0.99 { z } else { 0.5 }
+}
+
+impl<const M: usize> Piece<M> {
+    #[inline]
+    fn split(&self, z: f64) -> (Self, Self) {
+        let mut row = self.p;
+        let mut left = self.p;
+        for j in 1..M {
+            for i in 0..M - j {
+                row[i] = (1.0 - z) * row[i] + z * row[i + 1];
+            }
+            left[j] = row[0];
+        }
+        let middle = self.lo + (self.hi - self.lo) * z;
+        (
+            Self {
+                lo: self.lo,
+                hi: middle,
+                p: left,
+            },
+            Self {
+                lo: middle,
+                hi: self.hi,
+                p: row,
+            },
+        )
+    }
+}
