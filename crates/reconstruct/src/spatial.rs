@@ -1,0 +1,572 @@
+//! Space curves from unit tangents.
+//!
+//! Section 3.2 of the thesis chapter, "Spatial curves": the tangent runs on the unit sphere; interpolate it
+//! there, integrate its coordinates.
+
+use crate::integrate::{ACCURACY, gauss_step, integrate, positions};
+use crate::planar::{CLOSED, CLOSING_STEPS, cardinal_splines};
+use crate::sphere::SphereSpline;
+use crate::spline::{check_increasing, interval};
+use crate::{CubicSpline, Curve, EndCondition, Error, VectorSeries};
+use glam::{DMat3, DVec3};
+
+/// Neighbouring tangents with a smaller scalar product have no shortest arc between them.
+pub(crate) const ANTIPODAL: f64 = -1.0 + 1e-9;
+/// A spline of unit vectors shorter than this has lost its direction: the data turn too fast.
+const NEAR_ZERO: f64 = 0.1;
+
+/// How tangents are interpolated between sensors.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum TangentMethod {
+    /// A cubic spline of each coordinate, then normalised. Position order above 4 with
+    /// [`EndCondition::NotAKnot`], 3 with natural ends.
+    #[default]
+    Projected,
+    /// A cubic B-spline on the sphere by spherical interpolation, as in the thesis: natural-like ends,
+    /// equally spaced sensors, position order 3.
+    SphericalSpline,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+enum Tangent {
+    Projected(CubicSpline<DVec3>),
+    Spherical(SphereSpline),
+}
+
+impl Tangent {
+    fn value(&self, s: f64) -> DVec3 {
+        match self {
+            Self::Projected(spline) => spline.value(s).normalize_or_zero(),
+            Self::Spherical(spline) => spline.value(s),
+        }
+    }
+}
+
+/// A space curve known by its unit tangents at given arc lengths; it starts at the origin.
+///
+/// ```
+/// use reconstruct::SpatialRibbon;
+/// use glam::DVec3;
+/// let s: Vec<f64> = (0..=32).map(|i| f64::from(i) / 8.0).collect();
+/// let helix = |s: &f64| DVec3::new(-0.6 * s.sin(), 0.6 * s.cos(), 0.8);
+/// let ribbon = SpatialRibbon::new(&s, &s.iter().map(helix).collect::<Vec<_>>())?;
+/// let end = DVec3::new(0.6 * 4f64.cos() - 0.6, 0.6 * 4f64.sin(), 3.2);
+/// assert!((ribbon.points()[32] - end).length() < 1e-6);
+/// # Ok::<(), reconstruct::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SpatialRibbon {
+    knots: Vec<f64>,
+    tangents: Vec<DVec3>,
+    tangent: Tangent,
+    end: EndCondition,
+    points: Vec<DVec3>,
+    accuracy: f64,
+    integration_error: f64,
+}
+
+impl SpatialRibbon {
+    /// The ribbon with these tangents (of any length: they are normalised) at strictly increasing arc
+    /// lengths, by the projected spline with not-a-knot ends, integrated to `1e-13` of its length.
+    ///
+    /// # Errors
+    /// See [`SpatialRibbon::with_method`].
+    pub fn new(s: &[f64], tangents: &[DVec3]) -> Result<Self, Error> {
+        Self::with_method(s, tangents, TangentMethod::default(), EndCondition::default())
+    }
+
+    /// As [`SpatialRibbon::new`] with a method and an end condition; [`TangentMethod::SphericalSpline`] has
+    /// its own natural-like ends, whatever `end` says.
+    ///
+    /// # Errors
+    /// [`Error::TooFew`], [`Error::LengthMismatch`], [`Error::NonFinite`], [`Error::NotIncreasing`],
+    /// [`Error::ZeroVector`]; [`Error::AntipodalTangents`] for neighbours that point in opposite directions;
+    /// [`Error::TangentLost`] where the projected spline passes near zero; [`Error::NotUniform`] for
+    /// unequal spacing and [`Error::NoConvergence`] on the sphere; [`Error::NotIntegrable`].
+    pub fn with_method(
+        s: &[f64],
+        tangents: &[DVec3],
+        method: TangentMethod,
+        end: EndCondition,
+    ) -> Result<Self, Error> {
+        check_increasing(s)?;
+        if tangents.len() != s.len() {
+            return Err(Error::LengthMismatch { what: "tangents", expected: s.len(), got: tangents.len() });
+        }
+        let tangents = unit_tangents(tangents)?;
+        let tangent = match method {
+            TangentMethod::Projected => Tangent::Projected(projected(CubicSpline::new(s, &tangents, end)?)?),
+            TangentMethod::SphericalSpline => Tangent::Spherical(SphereSpline::new(s, &tangents)?),
+        };
+        let accuracy = ACCURACY * (s[s.len() - 1] - s[0]);
+        let (points, integration_error) = positions(s, &|s| tangent.value(s), accuracy)?;
+        Ok(Self { knots: s.to_vec(), tangents, tangent, end, points, accuracy, integration_error })
+    }
+
+    /// The arc lengths of the data.
+    #[must_use]
+    pub fn arc_lengths(&self) -> &[f64] {
+        &self.knots
+    }
+
+    /// The unit tangents at the data.
+    #[must_use]
+    pub fn tangents(&self) -> &[DVec3] {
+        &self.tangents
+    }
+
+    /// The positions at the data; the first is the origin.
+    #[must_use]
+    pub fn points(&self) -> &[DVec3] {
+        &self.points
+    }
+
+    /// The estimate of the integration's error at the far end, in units of length.
+    #[must_use]
+    pub fn integration_error(&self) -> f64 {
+        self.integration_error
+    }
+
+    /// The unit tangent at arc length `s`.
+    #[must_use]
+    pub fn tangent(&self, s: f64) -> DVec3 {
+        self.tangent.value(s)
+    }
+
+    /// The curvature vector `dT/ds` at arc length `s`, one over length.
+    ///
+    /// Exact for [`TangentMethod::Projected`]; for the spherical spline a central difference over a
+    /// thousandth of the sensor spacing, good to six digits.
+    #[must_use]
+    pub fn curvature_vector(&self, s: f64) -> DVec3 {
+        match &self.tangent {
+            Tangent::Projected(spline) => {
+                let piece = spline.piece(interval(&self.knots, s));
+                let value = piece.value(s);
+                let (unit, slope) = (value.normalize_or_zero(), piece.derivative(s));
+                (slope - unit * unit.dot(slope)) / value.length()
+            }
+            Tangent::Spherical(spline) => {
+                let step = 1e-3 * (self.knots[1] - self.knots[0]);
+                (spline.value(s + step) - spline.value(s - step)) / (2.0 * step)
+            }
+        }
+    }
+
+    /// The position at arc length `s`.
+    ///
+    /// # Errors
+    /// [`Error::NotIntegrable`] for an `s` that is no number or absurdly far beyond the ends.
+    pub fn point(&self, s: f64) -> Result<DVec3, Error> {
+        let i = interval(&self.knots, s);
+        Ok(self.points[i] + integrate(&|s| self.tangent.value(s), self.knots[i], s, self.accuracy)?.0)
+    }
+
+    /// How the position at arc length `s` moves when tangent `j` moves by a small vector: one matrix a
+    /// datum, in units of length. `dx(s) = sum_j M_j dT_j`,
+    /// `M_j = integral of phi_j (I - T T^T) / |S|`, with the cardinal splines `phi_j` and the spline `S`.
+    /// For the spherical spline this is the derivative of the projected one, which agrees to first order in
+    /// the turning between neighbouring sensors.
+    #[must_use]
+    pub fn sensitivity(&self, s: f64) -> Vec<DMat3> {
+        let cardinals = cardinal_splines(&self.knots, self.end);
+        let mut totals = vec![DMat3::ZERO; cardinals.len()];
+        for pair in self.knots.windows(2).take_while(|pair| pair[0] < s) {
+            let end = s.min(pair[1]);
+            self.add_sensitivity(&cardinals, pair[0], end, &mut totals);
+        }
+        totals
+    }
+
+    fn add_sensitivity(&self, cardinals: &[CubicSpline<f64>], start: f64, end: f64, totals: &mut [DMat3]) {
+        let length = end - start;
+        for (node, weight) in crate::quadrature::SIX {
+            let s = start + node * length;
+            let turn = self.projector(s) * (weight * length);
+            for (total, cardinal) in totals.iter_mut().zip(cardinals) {
+                *total += turn * cardinal.value(s);
+            }
+        }
+    }
+
+    /// The derivative of `S / |S|` by `S` at arc length `s`.
+    fn projector(&self, s: f64) -> DMat3 {
+        let (unit, length) = match &self.tangent {
+            Tangent::Projected(spline) => (self.tangent(s), spline.value(s).length()),
+            Tangent::Spherical(_) => (self.tangent(s), 1.0),
+        };
+        (DMat3::IDENTITY - outer(unit, unit)) * (1.0 / length)
+    }
+
+    /// The covariance of the position at each datum (length squared), when the tangents carry independent
+    /// isotropic errors of standard deviation `sigma` (radians, per direction across the tangent).
+    #[must_use]
+    pub fn covariance(&self, sigma: f64) -> Vec<DMat3> {
+        self.positions_sensitivity()
+            .into_iter()
+            .map(|row| {
+                row.iter().zip(&self.tangents).fold(DMat3::ZERO, |sum, (m, t)| {
+                    let across = DMat3::IDENTITY - outer(*t, *t);
+                    sum + *m * across * m.transpose() * (sigma * sigma)
+                })
+            })
+            .collect()
+    }
+
+    /// [`SpatialRibbon::sensitivity`] at every datum.
+    pub(crate) fn positions_sensitivity(&self) -> Vec<Vec<DMat3>> {
+        let cardinals = cardinal_splines(&self.knots, self.end);
+        let mut row = vec![DMat3::ZERO; cardinals.len()];
+        let mut rows = vec![row.clone()];
+        for pair in self.knots.windows(2) {
+            self.add_sensitivity(&cardinals, pair[0], pair[1], &mut row);
+            rows.push(row.clone());
+        }
+        rows
+    }
+}
+
+/// A stretch of a ribbon as a curve over `[0, 1]`, with exact derivatives (projected method).
+///
+/// The tangent is a normalised piecewise cubic: derivatives of the position up to the third are continuous,
+/// the fourth jumps at the sensors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RibbonCurve {
+    ribbon: SpatialRibbon,
+    start: f64,
+    length: f64,
+    origin: DVec3,
+}
+
+impl RibbonCurve {
+    /// The stretch `[start, end]` of arc length, with the ribbon's own start put at `origin`.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] unless `start < end` lie on the ribbon; [`Error::Unsupported`] for a ribbon by
+    /// the spherical spline.
+    pub fn new(ribbon: SpatialRibbon, start: f64, end: f64, origin: DVec3) -> Result<Self, Error> {
+        let [first, last] = [ribbon.knots[0], ribbon.knots[ribbon.knots.len() - 1]];
+        if !(first <= start && start < end && end <= last) {
+            return Err(Error::OutOfRange { what: "arc length", value: if start < first { start } else { end }, range: [first, last] });
+        }
+        if matches!(ribbon.tangent, Tangent::Spherical(_)) {
+            return Err(Error::Unsupported { what: "derivatives of the spline on the sphere" });
+        }
+        Ok(Self { ribbon, start, length: end - start, origin })
+    }
+}
+
+impl Curve for RibbonCurve {
+    fn series(&self, t: f64) -> VectorSeries {
+        let s = self.start + t * self.length;
+        let Tangent::Projected(spline) = &self.ribbon.tangent else { return VectorSeries::constant(DVec3::NAN) };
+        let piece = spline.piece(interval(&self.ribbon.knots, s));
+        let third = (piece.moments[1] - piece.moments[0]) / piece.length;
+        let cubic = VectorSeries([
+            piece.value(s),
+            piece.derivative(s),
+            piece.second_derivative(s) / 2.0,
+            third / 6.0,
+            DVec3::ZERO,
+        ]);
+        let tangent = cubic.normalised();
+        let point = self.ribbon.point(s).map_or(DVec3::NAN, |p| self.origin + p);
+        let mut scale = 1.0;
+        VectorSeries(core::array::from_fn(|k| {
+            if k == 0 {
+                return point;
+            }
+            scale *= self.length;
+            tangent.0[k - 1] * (scale / k as f64)
+        }))
+    }
+}
+
+/// A closed space ribbon: the tangents adjusted as little as possible so that the curve closes.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ClosedSpatialRibbon {
+    spline: CubicSpline<DVec3>,
+    points: Vec<DVec3>,
+    closing_error: DVec3,
+    largest_adjustment: f64,
+}
+
+impl ClosedSpatialRibbon {
+    /// The closed ribbon of the given `length` with tangents at arc lengths `s` in `[s[0], s[0] + length)`.
+    ///
+    /// The tangents become a periodic spline, normalised; the closing error is distributed over them with
+    /// least squared change, keeping the length, until the curve closes to `1e-12` of it.
+    ///
+    /// # Errors
+    /// As [`SpatialRibbon::new`]; [`Error::NoConvergence`] when no small change closes the curve.
+    pub fn new(s: &[f64], tangents: &[DVec3], length: f64) -> Result<Self, Error> {
+        check_increasing(s)?;
+        let n = s.len();
+        if tangents.len() != n {
+            return Err(Error::LengthMismatch { what: "tangents", expected: n, got: tangents.len() });
+        }
+        let mut knots = s.to_vec();
+        knots.push(s[0] + length);
+        check_increasing(&knots)?;
+        let mut values = tangents.to_vec();
+        values.extend(tangents.first());
+        let measured = unit_tangents(&values)?;
+        let cardinals: Vec<CubicSpline<f64>> = (0..n)
+            .map(|j| CubicSpline::periodic(&knots, &(0..=n).map(|i| f64::from(i % n == j)).collect::<Vec<_>>()))
+            .collect::<Result<_, _>>()?;
+        let mut values = measured.clone();
+        let mut closing_error = None;
+        for _ in 0..CLOSING_STEPS {
+            let spline = projected(CubicSpline::periodic(&knots, &values)?)?;
+            let direction = |s: f64| spline.value(s).normalize_or_zero();
+            let (points, _) = positions(&knots, &direction, ACCURACY * length)?;
+            let gap = points[n];
+            let first_gap = *closing_error.get_or_insert(gap);
+            if gap.length() <= CLOSED * length {
+                let largest_adjustment =
+                    values.iter().zip(&measured).fold(0.0, |m: f64, (a, b)| m.max(a.angle_between(*b)));
+                return Ok(Self { spline, points, closing_error: first_gap, largest_adjustment });
+            }
+            let slopes: Vec<DMat3> = cardinals
+                .iter()
+                .map(|cardinal| {
+                    let turn = |s: f64| {
+                        let value = spline.value(s);
+                        let unit = value.normalize_or_zero();
+                        let factor = cardinal.value(s) / value.length();
+                        ((DMat3::IDENTITY - outer(unit, unit)) * factor).to_cols_array()
+                    };
+                    let total = knots.windows(2).fold([0.0; 9], |sum, pair| {
+                        let step = gauss_step(&turn, pair[0], pair[1]);
+                        core::array::from_fn(|i| sum[i] + step[i])
+                    });
+                    DMat3::from_cols_array(&total)
+                })
+                .collect();
+            let gram = slopes.iter().fold(DMat3::ZERO, |sum, m| sum + *m * m.transpose());
+            // A straight ribbon cannot close to first order: no tangent moves the end along itself.
+            if gram.determinant() <= 1e-12 * length.powi(6) / (n as f64).powi(3) {
+                break;
+            }
+            let multiplier = gram.inverse() * gap;
+            for (value, slope) in values.iter_mut().zip(&slopes) {
+                *value = (*value - slope.transpose() * multiplier).normalize_or_zero();
+            }
+            values[n] = values[0];
+        }
+        Err(Error::NoConvergence { what: "closing the ribbon", steps: CLOSING_STEPS })
+    }
+
+    /// The gap that the measured tangents left, before the adjustment.
+    #[must_use]
+    pub fn closing_error(&self) -> DVec3 {
+        self.closing_error
+    }
+
+    /// The largest angle by which a tangent was turned, radians.
+    #[must_use]
+    pub fn largest_adjustment(&self) -> f64 {
+        self.largest_adjustment
+    }
+
+    /// The positions at the data; the last repeats the first up to the closing tolerance.
+    #[must_use]
+    pub fn points(&self) -> &[DVec3] {
+        &self.points
+    }
+
+    /// The unit tangent at `s`.
+    #[must_use]
+    pub fn tangent(&self, s: f64) -> DVec3 {
+        self.spline.value(s).normalize_or_zero()
+    }
+}
+
+/// The matrix `a b^T`.
+pub(crate) fn outer(a: DVec3, b: DVec3) -> DMat3 {
+    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
+}
+
+/// The tangents normalised.
+///
+/// # Errors
+/// [`Error::NonFinite`], [`Error::ZeroVector`], [`Error::AntipodalTangents`].
+pub(crate) fn unit_tangents(tangents: &[DVec3]) -> Result<Vec<DVec3>, Error> {
+    let mut units: Vec<DVec3> = Vec::with_capacity(tangents.len());
+    for (index, tangent) in tangents.iter().enumerate() {
+        if !tangent.is_finite() {
+            return Err(Error::NonFinite { what: "tangent", index });
+        }
+        let unit = tangent.try_normalize().ok_or(Error::ZeroVector { what: "tangent", index })?;
+        if let Some(before) = units.last() {
+            let cosine = before.dot(unit);
+            if cosine < ANTIPODAL {
+                return Err(Error::AntipodalTangents { index, cosine });
+            }
+        }
+        units.push(unit);
+    }
+    Ok(units)
+}
+
+/// Accepts a spline of unit vectors that keeps away from zero, tested at the nodes that integration uses.
+fn projected(spline: CubicSpline<DVec3>) -> Result<CubicSpline<DVec3>, Error> {
+    for pair in spline.knots().windows(2) {
+        for (node, _) in crate::quadrature::SIX {
+            let s = pair[0] + node * (pair[1] - pair[0]);
+            let length = spline.value(s).length();
+            if !(length >= NEAR_ZERO) {
+                return Err(Error::TangentLost { s, length });
+            }
+        }
+    }
+    Ok(spline)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::Noise;
+    use glam::DQuat;
+
+    fn tangent(s: f64) -> DVec3 {
+        let (theta, phi) = (0.9 + 0.5 * (1.3 * s).sin(), 0.3 + 0.8 * s + 0.2 * (2.1 * s).cos());
+        DVec3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos())
+    }
+
+    fn data(n: usize) -> (Vec<f64>, Vec<DVec3>) {
+        let s: Vec<f64> = (0..=n).map(|i| 4.0 * i as f64 / n as f64).collect();
+        let tangents = s.iter().map(|s| tangent(*s)).collect();
+        (s, tangents)
+    }
+
+    fn error(n: usize, method: TangentMethod, end: EndCondition) -> f64 {
+        let (s, tangents) = data(n);
+        let ribbon = SpatialRibbon::with_method(&s, &tangents, method, end).unwrap();
+        let (exact, _) = positions(&s, &tangent, 1e-13).unwrap();
+        ribbon.points().iter().zip(&exact).map(|(p, q)| (*p - *q).length()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn orders_of_convergence() {
+        let order = |method, end| (error(48, method, end) / error(96, method, end)).log2();
+        let a = order(TangentMethod::Projected, EndCondition::NotAKnot);
+        assert!(a > 3.9, "projected, not-a-knot: {a}");
+        let natural = order(TangentMethod::Projected, EndCondition::Natural);
+        assert!((2.7..3.4).contains(&natural), "projected, natural: {natural}");
+        let sphere = order(TangentMethod::SphericalSpline, EndCondition::Natural);
+        assert!((2.7..3.4).contains(&sphere), "sphere: {sphere}");
+    }
+
+    /// Turning the data turns the curve, to 1e-12 of its length.
+    #[test]
+    fn rotation_invariance() {
+        let (s, tangents) = data(24);
+        let mut noise = Noise::new(3);
+        for method in [TangentMethod::Projected, TangentMethod::SphericalSpline] {
+            let ribbon = SpatialRibbon::with_method(&s, &tangents, method, EndCondition::NotAKnot).unwrap();
+            for _ in 0..20 {
+                let q = DQuat::from_xyzw(noise.gaussian(), noise.gaussian(), noise.gaussian(), noise.gaussian()).normalize();
+                let turned: Vec<DVec3> = tangents.iter().map(|t| q * *t).collect();
+                let other = SpatialRibbon::with_method(&s, &turned, method, EndCondition::NotAKnot).unwrap();
+                for (a, b) in ribbon.points().iter().zip(other.points()) {
+                    assert!((q * *a - *b).length() < 4e-12);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn sensitivity_is_the_derivative() {
+        let (s, tangents) = data(12);
+        let ribbon = SpatialRibbon::new(&s, &tangents).unwrap();
+        let at = 2.9;
+        let matrices = ribbon.sensitivity(at);
+        for j in [0, 5, 11] {
+            for axis in DVec3::AXES {
+                let across = axis - tangents[j] * axis.dot(tangents[j]);
+                let move_by = |step: f64| {
+                    let mut moved = tangents.clone();
+                    moved[j] += across * step;
+                    SpatialRibbon::new(&s, &moved).unwrap().point(at).unwrap()
+                };
+                let difference = (move_by(1e-5) - move_by(-1e-5)) / 2e-5;
+                assert!((difference - matrices[j] * across).length() < 1e-8);
+            }
+        }
+    }
+
+    #[test]
+    fn covariance_agrees_with_simulation() {
+        let (s, tangents) = data(16);
+        let ribbon = SpatialRibbon::new(&s, &tangents).unwrap();
+        let sigma = 0.01;
+        let predicted = ribbon.covariance(sigma)[16];
+        let mut noise = Noise::new(11);
+        let mut measured = DMat3::ZERO;
+        let runs = 3000;
+        for _ in 0..runs {
+            let noisy: Vec<DVec3> = tangents.iter().map(|t| *t + noise.gaussian_vector() * sigma).collect();
+            let end = SpatialRibbon::new(&s, &noisy).unwrap().points()[16] - ribbon.points()[16];
+            measured += outer(end, end) * (1.0 / f64::from(runs));
+        }
+        // Relative standard error of a variance from 3,000 draws: 2.6 %; allow four of them on the trace.
+        let trace = |m: DMat3| m.x_axis.x + m.y_axis.y + m.z_axis.z;
+        assert!((trace(measured) / trace(predicted) - 1.0).abs() < 0.1, "{measured} {predicted}");
+    }
+
+    #[test]
+    fn a_closed_ribbon_closes() {
+        let n = 36;
+        let length = 5.0;
+        let s: Vec<f64> = (0..n).map(|i| length * f64::from(i) / f64::from(n)).collect();
+        let mut noise = Noise::new(5);
+        let tangents: Vec<DVec3> = s
+            .iter()
+            .map(|s| {
+                let t = s / length * core::f64::consts::TAU;
+                DVec3::new(-t.sin(), t.cos(), 0.4 * (2.0 * t).cos()) + noise.gaussian_vector() * 0.02
+            })
+            .collect();
+        let ribbon = ClosedSpatialRibbon::new(&s, &tangents, length).unwrap();
+        assert!(ribbon.closing_error().length() > 1e-4);
+        assert!(ribbon.points()[n as usize].length() < 5e-12);
+        assert!(ribbon.largest_adjustment() < 0.2);
+        let straight = ClosedSpatialRibbon::new(&s, &vec![DVec3::X; n as usize], length);
+        assert!(matches!(straight, Err(Error::NoConvergence { .. })));
+    }
+
+    #[test]
+    fn a_stretch_is_a_curve_with_its_derivatives() {
+        let (s, tangents) = data(16);
+        let ribbon = SpatialRibbon::new(&s, &tangents).unwrap();
+        let curve = RibbonCurve::new(ribbon.clone(), 0.5, 3.1, DVec3::ONE).unwrap();
+        let r = curve.series(0.37);
+        let h = 1e-4;
+        let [before, after] = [curve.series(0.37 - h), curve.series(0.37 + h)];
+        for order in 0..4 {
+            let difference = (after.derivative_at(order) - before.derivative_at(order)) / (2.0 * h);
+            assert!((difference - r.derivative_at(order + 1)).length() < 1e-4, "{order}");
+        }
+        assert!((r.derivative_at(2) / (2.6 * 2.6) - ribbon.curvature_vector(0.5 + 0.37 * 2.6)).length() < 1e-12);
+        assert!(RibbonCurve::new(ribbon, -1.0, 2.0, DVec3::ZERO).is_err());
+    }
+
+    #[test]
+    fn hostile_data() {
+        let s = [0.0, 1.0, 2.0];
+        let bad = |tangents: [DVec3; 3]| SpatialRibbon::new(&s, &tangents);
+        assert!(matches!(bad([DVec3::X, -DVec3::X, DVec3::Y]), Err(Error::AntipodalTangents { index: 1, .. })));
+        assert!(matches!(bad([DVec3::X, DVec3::ZERO, DVec3::Y]), Err(Error::ZeroVector { index: 1, .. })));
+        assert!(matches!(bad([DVec3::X, DVec3::NAN, DVec3::Y]), Err(Error::NonFinite { index: 1, .. })));
+        let wild = [DVec3::X, DVec3::new(-0.999, 0.04, 0.0), DVec3::X];
+        assert!(matches!(bad(wild), Err(Error::TangentLost { .. })));
+        let method = TangentMethod::SphericalSpline;
+        let uneven = SpatialRibbon::with_method(&[0.0, 1.0, 3.0], &[DVec3::X, DVec3::Y, DVec3::Z], method, EndCondition::Natural);
+        assert!(matches!(uneven, Err(Error::NotUniform { .. })));
+    }
+}
