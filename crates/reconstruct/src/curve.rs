@@ -1,15 +1,16 @@
 //! Space curves with exact derivatives.
 
-use crate::{Error, Series, VectorSeries};
+use crate::{Series, VectorSeries};
 use bezier_mass::bernstein::binomial;
+use bezier_mass::{BezierCurve, MassPoint, VectorSpace};
 use core::fmt::{self, Debug};
 use glam::DVec3;
 
 /// A space curve that knows its Taylor series to fourth order.
 ///
 /// Boundary curves run over `[0, 1]`; a curve may be defined beyond. Implement it for your own curve by
-/// evaluating its formula on a [`Series`], or use [`AnalyticCurve`], [`BezierCurve`] or
-/// [`SampledCurve`](crate::SampledCurve).
+/// evaluating its formula on a [`Series`], or use [`AnalyticCurve`], a
+/// [`BezierCurve`], a [`RibbonCurve`](crate::RibbonCurve) or a [`SampledCurve`](crate::SampledCurve).
 pub trait Curve: Debug + Send + Sync {
     /// The Taylor coefficients `r^(k)(t) / k!`, `k = 0..=4`.
     fn series(&self, t: f64) -> VectorSeries;
@@ -58,73 +59,16 @@ impl<F: Fn(Series) -> [Series; 3] + Send + Sync> Curve for AnalyticCurve<F> {
     }
 }
 
-/// A polynomial or rational Bézier curve in space, with positive weights.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct BezierCurve {
-    points: Vec<DVec3>,
-    weights: Option<Vec<f64>>,
-}
-
-impl BezierCurve {
-    /// The polynomial curve with these control points.
-    ///
-    /// # Errors
-    /// [`Error::TooFew`] for fewer than two points, [`Error::NonFinite`] for a coordinate that is no number.
-    pub fn polynomial(points: Vec<DVec3>) -> Result<Self, Error> {
-        if points.len() < 2 {
-            return Err(Error::TooFew { what: "control points", needed: 2, got: points.len() });
-        }
-        if let Some(index) = points.iter().position(|p| !p.is_finite()) {
-            return Err(Error::NonFinite { what: "control point", index });
-        }
-        Ok(Self { points, weights: None })
-    }
-
-    /// The rational curve with these control points (affine, not multiplied by their weights) and weights.
-    ///
-    /// # Errors
-    /// As [`BezierCurve::polynomial`]; [`Error::LengthMismatch`] when the counts differ and
-    /// [`Error::Weight`] for a weight that is not positive and finite.
-    pub fn rational(points: Vec<DVec3>, weights: Vec<f64>) -> Result<Self, Error> {
-        if weights.len() != points.len() {
-            return Err(Error::LengthMismatch { what: "weights", expected: points.len(), got: weights.len() });
-        }
-        if let Some((index, &value)) = weights.iter().enumerate().find(|(_, w)| !(w.is_finite() && **w > 0.0)) {
-            return Err(Error::Weight { index, value });
-        }
-        Ok(Self { weights: Some(weights), ..Self::polynomial(points)? })
-    }
-
-    /// The control points, affine.
-    #[must_use]
-    pub fn points(&self) -> &[DVec3] {
-        &self.points
-    }
-
-    /// The weights of a rational curve, `None` for a polynomial one.
-    #[must_use]
-    pub fn weights(&self) -> Option<&[f64]> {
-        self.weights.as_deref()
-    }
-
-    /// The degree.
-    #[must_use]
-    pub fn degree(&self) -> usize {
-        self.points.len() - 1
-    }
-}
-
-impl Curve for BezierCurve {
+/// Polynomial and rational Bézier curves.
+impl Curve for BezierCurve<DVec3> {
     fn series(&self, t: f64) -> VectorSeries {
-        match &self.weights {
-            None => VectorSeries(taylor(&self.points, t)),
-            Some(weights) => {
-                let numerators: Vec<DVec3> = self.points.iter().zip(weights).map(|(p, w)| *p * *w).collect();
-                let denominator = Series(taylor(weights, t));
-                VectorSeries(taylor(&numerators, t)).scaled(&(Series::constant(1.0) / denominator))
-            }
+        let homogeneous: [MassPoint<DVec3>; 5] = taylor(self.control(), t);
+        let numerator = VectorSeries(homogeneous.map(|h| h.weighted));
+        let denominator = Series(homogeneous.map(|h| h.weight));
+        if denominator == Series::constant(1.0) {
+            return numerator;
         }
+        numerator.scaled(&(Series::constant(1.0) / denominator))
     }
 }
 
@@ -133,7 +77,7 @@ const ON_STACK: usize = 32;
 
 /// The first `N` Taylor coefficients at `t` of a Bernstein polynomial of degree `n`:
 /// `binomial(n, k)` times the `k`-th difference in the de Casteljau row of length `k + 1`.
-pub(crate) fn taylor<V: bezier_mass::VectorSpace, const N: usize>(coefficients: &[V], t: f64) -> [V; N] {
+pub(crate) fn taylor<V: VectorSpace, const N: usize>(coefficients: &[V], t: f64) -> [V; N] {
     let count = coefficients.len();
     if count > ON_STACK {
         return taylor_in(&mut coefficients.to_vec(), t);
@@ -143,7 +87,7 @@ pub(crate) fn taylor<V: bezier_mass::VectorSpace, const N: usize>(coefficients: 
     taylor_in(&mut row[..count], t)
 }
 
-fn taylor_in<V: bezier_mass::VectorSpace, const N: usize>(row: &mut [V], t: f64) -> [V; N] {
+fn taylor_in<V: VectorSpace, const N: usize>(row: &mut [V], t: f64) -> [V; N] {
     let mut series = [V::ZERO; N];
     let degree = row.len().saturating_sub(1);
     let mut length = row.len();
@@ -190,7 +134,8 @@ mod tests {
     #[test]
     fn quarter_circle() {
         let w = core::f64::consts::FRAC_1_SQRT_2;
-        let arc = BezierCurve::rational(vec![DVec3::X, DVec3::X + DVec3::Y, DVec3::Y], vec![1.0, w, 1.0]).unwrap();
+        let control = [(DVec3::X, 1.0), (DVec3::X + DVec3::Y, w), (DVec3::Y, 1.0)];
+        let arc = BezierCurve::new(control.map(|(p, w)| MassPoint::point(p, w)).to_vec()).unwrap();
         let r = arc.series(0.3);
         let square = r.dot(&r);
         assert!((square.value() - 1.0).abs() < 1e-15);
@@ -210,14 +155,5 @@ mod tests {
         for k in 0..5 {
             assert!((reversed.series(0.2).0[k] - direct.series(0.2).0[k]).length() < 1e-15);
         }
-    }
-
-    #[test]
-    fn hostile_control_points_are_refused() {
-        assert!(matches!(BezierCurve::polynomial(vec![DVec3::X]), Err(Error::TooFew { .. })));
-        let points = vec![DVec3::X, DVec3::NAN];
-        assert!(matches!(BezierCurve::polynomial(points), Err(Error::NonFinite { index: 1, .. })));
-        let zero = BezierCurve::rational(vec![DVec3::X, DVec3::Y], vec![1.0, 0.0]);
-        assert!(matches!(zero, Err(Error::Weight { index: 1, .. })));
     }
 }

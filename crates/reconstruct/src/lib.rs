@@ -1,1 +1,27 @@
 //! Curves from ribbons of orientation sensors, and surfaces whose given boundary curves are geodesics
+
+mod conditions;
+mod curve;
+mod error;
+mod integrate;
+mod planar;
+mod quadrature;
+mod sensor;
+mod series;
+mod spatial;
+mod sphere;
+mod spline;
+mod stream;
+mod tangent;
+#[cfg(test)]
+mod testing;
+
+pub use curve::{AnalyticCurve, Curve, Reversed};
+pub use error::Error;
+pub use planar::{ClosedPlanarRibbon, PlanarRibbon};
+pub use sensor::{Calibration, ReadingFault, Sensor, SensorKind, WorldFields, inclinations, inclinations_past_vertical};
+pub use series::{Series, VectorSeries};
+pub use spatial::{ClosedSpatialRibbon, RibbonCurve, SpatialRibbon, TangentMethod};
+pub use spline::{CubicSpline, EndCondition};
+pub use stream::RibbonStream;
+pub use tangent::{RibbonLayout, Tangents};

@@ -413,15 +413,23 @@ pub(crate) fn unit_tangents(tangents: &[DVec3]) -> Result<Vec<DVec3>, Error> {
     Ok(units)
 }
 
-/// Accepts a spline of unit vectors that keeps away from zero, tested at the nodes that integration uses.
+/// Chords into which a spline piece is cut to measure its distance from zero.
+const CHORDS: usize = 8;
+
+/// Accepts a spline of unit vectors that keeps away from zero: no chord of it comes near.
 fn projected(spline: CubicSpline<DVec3>) -> Result<CubicSpline<DVec3>, Error> {
     for pair in spline.knots().windows(2) {
-        for (node, _) in crate::quadrature::SIX {
-            let s = pair[0] + node * (pair[1] - pair[0]);
-            let length = spline.value(s).length();
+        let mut before = spline.value(pair[0]);
+        for k in 1..=CHORDS {
+            let s = pair[0] + (pair[1] - pair[0]) * k as f64 / CHORDS as f64;
+            let after = spline.value(s);
+            let chord = after - before;
+            let nearest = (-before.dot(chord) / chord.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            let length = (before + chord * nearest).length();
             if !(length >= NEAR_ZERO) {
                 return Err(Error::TangentLost { s, length });
             }
+            before = after;
         }
     }
     Ok(spline)

@@ -1,0 +1,458 @@
+//! From sensor readings to unit tangents.
+//!
+//! The two fields are known in the world and measured in the ribbon's frame; two directions fix the frame
+//! (the TRIAD method: H. D. Black, *A passive system for determining the attitude of a satellite*, AIAA
+//! Journal 2, 1964), and its first axis is the tangent. Where the two kinds of sensor alternate, each field is
+//! first interpolated in the body frame to all places.
+
+use crate::sensor::{PARALLEL_FIELDS, Sensor, SensorKind, WorldFields};
+use crate::spatial::outer;
+use crate::spline::{SplineSystem, interval};
+use crate::{EndCondition, Error, SpatialRibbon};
+use glam::{DMat3, DVec3};
+use nalgebra::DMatrix;
+
+/// Sensors of one kind needed for a not-a-knot spline that follows a bend.
+const NEEDED: usize = 3;
+/// Smallest component of gravity normal to the ribbon with which the missing axis of a two-axis magnetometer
+/// follows from the dip; below it the field's unit length decides, with a sign continued along the ribbon.
+const NORMAL_GRAVITY: f64 = 0.1;
+/// An interpolated field vector shorter than this has lost its direction.
+const NEAR_ZERO: f64 = 0.1;
+
+/// A weighted sum of two values and two moments: a spline's value at a fixed place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Stencil {
+    first: usize,
+    values: [f64; 2],
+    moments: [f64; 2],
+}
+
+/// The sensors that measure one field, with the spline that carries it to all places.
+#[derive(Clone, Debug, PartialEq)]
+struct Channel {
+    sensors: Vec<usize>,
+    system: SplineSystem,
+    /// How to evaluate at every place of the layout.
+    everywhere: Vec<Stencil>,
+}
+
+impl Channel {
+    fn new(sensors: &[Sensor], magnetic: bool, places: &[f64]) -> Result<Self, Error> {
+        let mine: Vec<usize> = (0..sensors.len()).filter(|i| sensors[*i].is_magnetometer() == magnetic).collect();
+        if mine.len() < NEEDED {
+            let what = if magnetic { "magnetometers" } else { "accelerometers" };
+            return Err(Error::TooFew { what, needed: NEEDED, got: mine.len() });
+        }
+        let knots: Vec<f64> = mine.iter().map(|i| sensors[*i].s).collect();
+        let system = SplineSystem::new(&knots, EndCondition::NotAKnot)?;
+        let everywhere = places.iter().map(|s| stencil(&knots, *s)).collect();
+        Ok(Self { sensors: mine, system, everywhere })
+    }
+
+    fn value(&self, place: usize, values: &[DVec3], moments: &[DVec3]) -> DVec3 {
+        let Stencil { first: i, values: [a, b], moments: [p, q] } = self.everywhere[place];
+        values[i] * a + values[i + 1] * b + moments[i] * p + moments[i + 1] * q
+    }
+}
+
+fn stencil(knots: &[f64], s: f64) -> Stencil {
+    let first = interval(knots, s);
+    let h = knots[first + 1] - knots[first];
+    let b = (s - knots[first]) / h;
+    let a = 1.0 - b;
+    let sixth = h * h / 6.0;
+    Stencil { first, values: [a, b], moments: [(a * a * a - a) * sixth, (b * b * b - b) * sixth] }
+}
+
+/// Where the sensors of a ribbon sit and what they measure, with all that can be computed before a reading.
+///
+/// ```
+/// use reconstruct::{RibbonLayout, Sensor, SensorKind, WorldFields};
+/// use glam::DVec3;
+/// let world = WorldFields::with_dip(1.08)?;
+/// let kind = |i| if i % 2 == 0 { SensorKind::Accelerometer } else { SensorKind::Magnetometer };
+/// let layout = RibbonLayout::new((0..8).map(|i| Sensor::new(0.025 * i as f64, kind(i))), world)?;
+/// // A flat ribbon that points north: its frame is x = north, y = west, z = up.
+/// let body = |v: DVec3| DVec3::new(v.y, -v.x, v.z);
+/// let readings: Vec<DVec3> =
+///     (0..8).map(|i| if i % 2 == 0 { DVec3::Z } else { body(world.magnetic()) }).collect();
+/// let tangents = layout.tangents(&readings)?;
+/// assert!(tangents.values().iter().all(|t| (*t - DVec3::Y).length() < 1e-14));
+/// # Ok::<(), reconstruct::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct RibbonLayout {
+    sensors: Vec<Sensor>,
+    world: WorldFields,
+    /// Places of the output: the distinct arc lengths of all sensors.
+    places: Vec<f64>,
+    gravity: Channel,
+    magnetic: Channel,
+    /// For every magnetometer, how to evaluate gravity at its place.
+    gravity_at_magnetometers: Vec<Stencil>,
+}
+
+/// Buffers of one reconstruction, to be reused.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Scratch {
+    gravity: Vec<DVec3>,
+    gravity_moments: Vec<DVec3>,
+    magnetic: Vec<DVec3>,
+    magnetic_moments: Vec<DVec3>,
+}
+
+impl RibbonLayout {
+    /// A layout from its sensors, in the order of their readings. Sensors of either kind must come with
+    /// increasing arc lengths; an accelerometer and a magnetometer may share a place.
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] below three of either kind; [`Error::NotIncreasing`], [`Error::NonFinite`] for
+    /// their arc lengths.
+    pub fn new(sensors: impl IntoIterator<Item = Sensor>, world: WorldFields) -> Result<Self, Error> {
+        let sensors: Vec<Sensor> = sensors.into_iter().collect();
+        if let Some(index) = sensors.iter().position(|sensor| !sensor.s.is_finite()) {
+            return Err(Error::NonFinite { what: "arc length", index });
+        }
+        let mut places: Vec<f64> = sensors.iter().map(|sensor| sensor.s).collect();
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        let gravity = Channel::new(&sensors, false, &places)?;
+        let magnetic = Channel::new(&sensors, true, &places)?;
+        let gravity_at_magnetometers =
+            magnetic.sensors.iter().map(|i| stencil(gravity.system.knots(), sensors[*i].s)).collect();
+        Ok(Self { sensors, world, places, gravity, magnetic, gravity_at_magnetometers })
+    }
+
+    /// The sensors, in the order of their readings.
+    #[must_use]
+    pub fn sensors(&self) -> &[Sensor] {
+        &self.sensors
+    }
+
+    /// The arc lengths at which tangents are found: those of all sensors, increasing.
+    #[must_use]
+    pub fn arc_lengths(&self) -> &[f64] {
+        &self.places
+    }
+
+    /// The unit tangents in the world frame at [`RibbonLayout::arc_lengths`], from one raw reading a sensor.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`]; [`Error::Reading`] with the sensor and the reason for an impossible
+    /// reading; [`Error::TangentLost`] when an interpolated field vanishes; [`Error::ParallelFields`].
+    pub fn tangents(&self, readings: &[DVec3]) -> Result<Tangents, Error> {
+        let mut scratch = self.scratch();
+        let mut values = vec![DVec3::ZERO; self.places.len()];
+        self.tangents_into(readings, &mut scratch, &mut values)?;
+        let sensitivity = self.sensitivity(&scratch);
+        Ok(Tangents { s: self.places.clone(), values, sensitivity })
+    }
+
+    pub(crate) fn scratch(&self) -> Scratch {
+        let (g, m) = (vec![DVec3::ZERO; self.gravity.sensors.len()], vec![DVec3::ZERO; self.magnetic.sensors.len()]);
+        Scratch { gravity: g.clone(), gravity_moments: g, magnetic: m.clone(), magnetic_moments: m }
+    }
+
+    /// As [`RibbonLayout::tangents`], into buffers of the right size, without allocating.
+    pub(crate) fn tangents_into(
+        &self,
+        readings: &[DVec3],
+        scratch: &mut Scratch,
+        tangents: &mut [DVec3],
+    ) -> Result<(), Error> {
+        if readings.len() != self.sensors.len() {
+            return Err(Error::LengthMismatch { what: "readings", expected: self.sensors.len(), got: readings.len() });
+        }
+        self.read(&self.gravity, readings, &mut scratch.gravity)?;
+        self.gravity.system.moments_into(&scratch.gravity, &mut scratch.gravity_moments);
+        self.read(&self.magnetic, readings, &mut scratch.magnetic)?;
+        self.complete_two_axis(scratch)?;
+        self.magnetic.system.moments_into(&scratch.magnetic, &mut scratch.magnetic_moments);
+        for (place, tangent) in tangents.iter_mut().enumerate() {
+            let [a, m] = self.fields(place, scratch);
+            for field in [a, m] {
+                let length = field.length();
+                if !(length >= NEAR_ZERO) {
+                    return Err(Error::TangentLost { s: self.places[place], length });
+                }
+            }
+            let (a, m) = (a.normalize(), m.normalize());
+            let sine = a.cross(m).length();
+            if sine < PARALLEL_FIELDS {
+                return Err(Error::ParallelFields { s: self.places[place], sine });
+            }
+            *tangent = self.frame(a, m).x_axis;
+        }
+        Ok(())
+    }
+
+    fn read(&self, channel: &Channel, readings: &[DVec3], values: &mut [DVec3]) -> Result<(), Error> {
+        for (value, &sensor) in values.iter_mut().zip(&channel.sensors) {
+            let Sensor { calibration, .. } = &self.sensors[sensor];
+            *value = calibration
+                .direction(readings[sensor], self.sensors[sensor].axes())
+                .map_err(|fault| Error::Reading { sensor, fault })?;
+        }
+        Ok(())
+    }
+
+    /// Both fields in the body frame at a place, not normalised.
+    fn fields(&self, place: usize, scratch: &Scratch) -> [DVec3; 2] {
+        [
+            self.gravity.value(place, &scratch.gravity, &scratch.gravity_moments),
+            self.magnetic.value(place, &scratch.magnetic, &scratch.magnetic_moments),
+        ]
+    }
+
+    /// The third coordinate of two-axis magnetometers, from `a . m = up . B` where gravity has a component
+    /// normal to the ribbon, else from the field's unit length with the sign nearest to the neighbour's.
+    fn complete_two_axis(&self, scratch: &mut Scratch) -> Result<(), Error> {
+        let dip = self.world.up().dot(self.world.magnetic());
+        let mut before: Option<f64> = None;
+        for (i, &sensor) in self.magnetic.sensors.iter().enumerate() {
+            if self.sensors[sensor].kind == SensorKind::MagnetometerTwoAxis {
+                let Stencil { first, values, moments } = self.gravity_at_magnetometers[i];
+                let a = scratch.gravity[first] * values[0]
+                    + scratch.gravity[first + 1] * values[1]
+                    + scratch.gravity_moments[first] * moments[0]
+                    + scratch.gravity_moments[first + 1] * moments[1];
+                let a = a.try_normalize().ok_or(Error::TangentLost { s: self.sensors[sensor].s, length: 0.0 })?;
+                let m = &mut scratch.magnetic[i];
+                let from_dip = |a: DVec3| (dip - a.x * m.x - a.y * m.y) / a.z;
+                m.z = if a.z.abs() > NORMAL_GRAVITY {
+                    from_dip(a)
+                } else {
+                    let size = (1.0 - m.x * m.x - m.y * m.y).max(0.0).sqrt();
+                    size.copysign(before.unwrap_or_else(|| if a.z == 0.0 { 1.0 } else { from_dip(a) }))
+                };
+                *m = m.try_normalize().ok_or(Error::TangentLost { s: self.sensors[sensor].s, length: 0.0 })?;
+            }
+            before = Some(scratch.magnetic[i].z);
+        }
+        Ok(())
+    }
+
+    /// The ribbon's frame (columns) from the unit fields in the body frame: world triad times body triad
+    /// transposed.
+    fn frame(&self, a: DVec3, m: DVec3) -> DMat3 {
+        triad(self.world.up(), self.world.magnetic()) * triad(a, m).transpose()
+    }
+
+    /// The derivative of every tangent by every reading (as unit body vectors): `3 places x 3 sensors`.
+    fn sensitivity(&self, scratch: &Scratch) -> DMatrix<f64> {
+        let mut matrix = DMatrix::zeros(3 * self.places.len(), 3 * self.sensors.len());
+        let world = triad(self.world.up(), self.world.magnetic());
+        for channel in [&self.gravity, &self.magnetic] {
+            let cardinals = cardinal_values(channel, self.places.len());
+            for place in 0..self.places.len() {
+                let [by_gravity, by_magnetic] = tangent_derivatives(world, self.fields(place, scratch));
+                let by_field = if core::ptr::eq(channel, &self.gravity) { by_gravity } else { by_magnetic };
+                for (k, &sensor) in channel.sensors.iter().enumerate() {
+                    let block = by_field * cardinals[(place, k)];
+                    for (row, column) in (0..9).map(|n| (n % 3, n / 3)) {
+                        matrix[(3 * place + row, 3 * sensor + column)] = block.col(column)[row];
+                    }
+                }
+            }
+        }
+        matrix
+    }
+}
+
+/// Value of each sensor's cardinal spline at each place.
+fn cardinal_values(channel: &Channel, places: usize) -> DMatrix<f64> {
+    let n = channel.sensors.len();
+    let mut matrix = DMatrix::zeros(places, n);
+    let mut moments = vec![0.0; n];
+    for k in 0..n {
+        let unit: Vec<f64> = (0..n).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
+        channel.system.moments_into(&unit, &mut moments);
+        for place in 0..places {
+            let Stencil { first: i, values: [a, b], moments: [p, q] } = channel.everywhere[place];
+            matrix[(place, k)] = a * unit[i] + b * unit[i + 1] + p * moments[i] + q * moments[i + 1];
+        }
+    }
+    matrix
+}
+
+/// The right-handed triad of two directions: the first, their normal, and the third.
+fn triad(a: DVec3, m: DVec3) -> DMat3 {
+    let across = a.cross(m).normalize();
+    DMat3::from_cols(a, across, a.cross(across))
+}
+
+/// The matrix of `v -> a x v`.
+fn cross_matrix(a: DVec3) -> DMat3 {
+    DMat3::from_cols(a.cross(DVec3::X), a.cross(DVec3::Y), a.cross(DVec3::Z))
+}
+
+/// The derivatives of the tangent by the two interpolated body fields.
+fn tangent_derivatives(world: DMat3, [gravity, magnetic]: [DVec3; 2]) -> [DMat3; 2] {
+    let normalising = |v: DVec3| {
+        let unit = v.normalize();
+        (DMat3::IDENTITY - outer(unit, unit)) * (1.0 / v.length())
+    };
+    let (a, m) = (gravity.normalize(), magnetic.normalize());
+    let cross = a.cross(m);
+    let across = cross.normalize();
+    [(normalising(gravity), DMat3::ZERO), (DMat3::ZERO, normalising(magnetic))].map(|(da, dm)| {
+        let d_across = normalising(cross) * (cross_matrix(a) * dm - cross_matrix(m) * da);
+        let d_third = cross_matrix(a) * d_across - cross_matrix(across) * da;
+        // The tangent is the sum of the world axes times the x components of the body axes.
+        [(world.x_axis, da), (world.y_axis, d_across), (world.z_axis, d_third)]
+            .into_iter()
+            .fold(DMat3::ZERO, |sum, (axis, d)| sum + outer(axis, d.row(0)))
+    })
+}
+
+/// Unit tangents at given arc lengths, with how they depend on the readings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tangents {
+    s: Vec<f64>,
+    values: Vec<DVec3>,
+    sensitivity: DMatrix<f64>,
+}
+
+impl Tangents {
+    /// The arc lengths.
+    #[must_use]
+    pub fn arc_lengths(&self) -> &[f64] {
+        &self.s
+    }
+
+    /// The unit tangents in the world frame.
+    #[must_use]
+    pub fn values(&self) -> &[DVec3] {
+        &self.values
+    }
+
+    /// The ribbon through these tangents.
+    ///
+    /// # Errors
+    /// As [`SpatialRibbon::new`].
+    pub fn ribbon(&self) -> Result<SpatialRibbon, Error> {
+        SpatialRibbon::new(&self.s, &self.values)
+    }
+
+    /// The covariance of the position at every place of `ribbon` (which must come from
+    /// [`Tangents::ribbon`]), when every coordinate of every reading, in units of its field, carries an
+    /// independent error of standard deviation `sigma`. First order: readings to tangents to positions, each
+    /// step by its exact derivative.
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`] for another ribbon.
+    pub fn position_covariance(&self, ribbon: &SpatialRibbon, sigma: f64) -> Result<Vec<DMat3>, Error> {
+        if ribbon.tangents().len() != self.values.len() {
+            let (expected, got) = (self.values.len(), ribbon.tangents().len());
+            return Err(Error::LengthMismatch { what: "tangents of the ribbon", expected, got });
+        }
+        Ok(ribbon
+            .positions_sensitivity()
+            .iter()
+            .map(|row| {
+                let by_tangents = DMatrix::from_fn(3, 3 * row.len(), |i, j| row[j / 3].col(j % 3)[i]);
+                let by_readings = by_tangents * &self.sensitivity;
+                let covariance = &by_readings * by_readings.transpose() * (sigma * sigma);
+                DMat3::from_cols_array(&core::array::from_fn(|n| covariance[(n % 3, n / 3)]))
+            })
+            .collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::Noise;
+
+    /// A strip with a known frame along the curve of the spatial tests.
+    fn frame(s: f64) -> DMat3 {
+        let x = DVec3::new((0.9 * s).cos(), (0.9 * s).sin(), 0.3 * (1.1 * s).sin()).normalize();
+        let y = DVec3::new(-0.2 * s, 0.4, 1.0).cross(x).normalize();
+        DMat3::from_cols(x, y, x.cross(y))
+    }
+
+    fn layout(n: usize, length: f64, second: SensorKind) -> RibbonLayout {
+        let kind = |i: usize| if i.is_multiple_of(2) { SensorKind::Accelerometer } else { second };
+        let sensor = |i: usize| Sensor::new(length * i as f64 / n as f64, kind(i));
+        RibbonLayout::new((0..=n).map(sensor), WorldFields::with_dip(1.08).unwrap()).unwrap()
+    }
+
+    fn readings(layout: &RibbonLayout) -> Vec<DVec3> {
+        let field = |sensor: &Sensor| {
+            if sensor.is_magnetometer() { layout.world.magnetic() } else { layout.world.up() }
+        };
+        layout.sensors.iter().map(|sensor| frame(sensor.s).transpose() * field(sensor)).collect()
+    }
+
+    fn error(layout: &RibbonLayout) -> f64 {
+        let tangents = layout.tangents(&readings(layout)).unwrap();
+        let pairs = tangents.s.iter().zip(&tangents.values);
+        pairs.map(|(s, t)| (frame(*s).x_axis - *t).length()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn alternating_sensors_converge_with_order_above_three_and_a_half() {
+        let errors = [64, 128].map(|n| error(&layout(n, 4.0, SensorKind::Magnetometer)));
+        assert!((errors[0] / errors[1]).log2() > 3.5, "{errors:?}");
+        // The two-axis device carries the same information while gravity has a normal component.
+        let two = [64, 128].map(|n| error(&layout(n, 1.0, SensorKind::MagnetometerTwoAxis)));
+        assert!((two[0] / two[1]).log2() > 3.5, "{two:?}");
+    }
+
+    #[test]
+    fn both_kinds_at_each_place_are_exact() {
+        let world = WorldFields::with_dip(1.08).unwrap();
+        let kinds = [SensorKind::Accelerometer, SensorKind::Magnetometer];
+        let sensors = (0..8).flat_map(|i| kinds.map(|kind| Sensor::new(0.5 * f64::from(i), kind)));
+        let layout = RibbonLayout::new(sensors, world).unwrap();
+        assert!(error(&layout) < 1e-14);
+        assert_eq!(layout.arc_lengths().len(), 8);
+    }
+
+    #[test]
+    fn covariance_from_readings_agrees_with_simulation() {
+        let layout = layout(16, 0.8, SensorKind::Magnetometer);
+        let exact = readings(&layout);
+        let sigma = 0.005;
+        let tangents = layout.tangents(&exact).unwrap();
+        let ribbon = tangents.ribbon().unwrap();
+        let predicted = tangents.position_covariance(&ribbon, sigma).unwrap()[16];
+        let mut noise = Noise::new(21);
+        let runs = 2000;
+        let mut measured = DMat3::ZERO;
+        for _ in 0..runs {
+            let noisy: Vec<DVec3> = exact.iter().map(|r| *r + noise.gaussian_vector() * sigma).collect();
+            let end = layout.tangents(&noisy).unwrap().ribbon().unwrap().points()[16] - ribbon.points()[16];
+            measured += outer(end, end) * (1.0 / f64::from(runs));
+        }
+        let trace = |m: DMat3| m.x_axis.x + m.y_axis.y + m.z_axis.z;
+        // 2,000 draws: relative standard error of a variance 3.2 %; four of them.
+        assert!((trace(measured) / trace(predicted) - 1.0).abs() < 0.13, "{measured} {predicted}");
+    }
+
+    #[test]
+    fn impossible_readings_are_named() {
+        use crate::sensor::{Calibration, ReadingFault};
+        let layout = layout(8, 1.0, SensorKind::Magnetometer);
+        let good = readings(&layout);
+        let with = |index: usize, value: DVec3| {
+            let mut bad = good.clone();
+            bad[index] = value;
+            layout.tangents(&bad)
+        };
+        assert!(matches!(with(3, DVec3::NAN), Err(Error::Reading { sensor: 3, fault: ReadingFault::NonFinite })));
+        assert!(matches!(with(4, DVec3::ZERO), Err(Error::Reading { sensor: 4, fault: ReadingFault::FieldLost { .. } })));
+        assert!(matches!(layout.tangents(&good[1..]), Err(Error::LengthMismatch { .. })));
+        let mut sensors = layout.sensors().to_vec();
+        let limit = Calibration::new(DVec3::ZERO, DVec3::ONE, DMat3::IDENTITY, 0.5, 1.0).unwrap();
+        sensors[0] = sensors[0].with_calibration(limit);
+        let limited = RibbonLayout::new(sensors, layout.world).unwrap();
+        let fault = limited.tangents(&good);
+        assert!(matches!(fault, Err(Error::Reading { sensor: 0, fault: ReadingFault::Saturated { .. } })), "{fault:?}");
+        let same = vec![DVec3::Z; 9];
+        assert!(matches!(layout.tangents(&same), Err(Error::ParallelFields { .. })));
+        let few = (0..5).map(|i| Sensor::new(f64::from(i), SensorKind::Accelerometer));
+        assert!(matches!(RibbonLayout::new(few, layout.world), Err(Error::TooFew { .. })));
+    }
+}
