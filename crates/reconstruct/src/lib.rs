@@ -25,3 +25,15 @@ pub use spatial::{ClosedSpatialRibbon, RibbonCurve, SpatialRibbon, TangentMethod
 pub use spline::{CubicSpline, EndCondition};
 pub use stream::RibbonStream;
 pub use tangent::{RibbonLayout, Tangents};
+mod coons;
+mod frame;
+mod hermite;
+mod smoothing;
+mod strip;
+mod surface;
+pub use coons::{CoonsPatch, Rectangle, Twists, check_rectangle};
+pub use conditions::{BoundaryReport, CONDITION_TOLERANCE, Corner, Violation};
+pub use frame::{DarbouxFrame, FrenetFrame, GeodesicCheck, crossing_residual};
+pub use smoothing::{Criterion, Smoothed};
+pub use strip::{GeodesicStrip, Strip, StripSample};
+pub use surface::{Curvatures, Surface, Tessellation, boundary_geodesic_curvature, geodesic_curvature, tessellate, tessellate_triangle};

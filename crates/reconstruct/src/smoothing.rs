@@ -1,0 +1,304 @@
+//! The free parameters of a rectangle chosen by minimal energy.
+//!
+//! Section 3.6 of the thesis chapter, criteria 1 to 3. The patch is affine in its eight twist components,
+//! `R = R_0 + sum w_k B_k`, so the Dirichlet and the thin-plate energy are quadratic and their minimum is one
+//! linear system; the speed variation is a nonlinear least-squares problem.
+
+use crate::coons::{CORNERS, CoonsPatch, Line, Rectangle, Twists, components};
+use crate::quadrature::gauss;
+use crate::strip::Strip;
+use crate::{Error, hermite::hermite};
+use core::array::from_fn;
+use glam::DVec3;
+use nalgebra::{SMatrix, SVector};
+
+/// What a smooth rectangle should have little of. Integrals over the unit square, without a factor 1/2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Criterion {
+    /// Criterion 1: `(d|R_u|/du)² + (d|R_v|/dv)²`, the variation of the speed along the parameter lines.
+    SpeedVariation,
+    /// Criterion 2: the Dirichlet energy `|R_u|² + |R_v|²`.
+    Dirichlet,
+    /// Criterion 3: the thin-plate energy `|R_uu|² + 2 |R_uv|² + |R_vv|²`.
+    ThinPlate,
+}
+
+/// The patch of least energy.
+#[derive(Clone, Debug)]
+pub struct Smoothed<S> {
+    /// The patch.
+    pub patch: CoonsPatch<S>,
+    /// Its energy.
+    pub energy: f64,
+    /// The energy with all tangential twists zero.
+    pub energy_at_zero: f64,
+    /// Eigenvalues of the matrix of the quadratic form, ascending. For the speed variation, those of its
+    /// Gauss-Newton matrix at the minimum.
+    pub eigenvalues: [f64; 8],
+}
+
+/// Gauss points in either direction: the integrands of smooth boundaries are resolved to rounding.
+const NODES: usize = 20;
+/// Least-squares steps for the speed variation.
+const STEPS: usize = 60;
+/// A step that lowers the speed variation by less than this part ends the iteration.
+const CONVERGED: f64 = 1e-13;
+/// Condition number beyond which a quadratic energy counts as degenerate.
+const CONDITION: f64 = 1e13;
+
+type Matrix8 = SMatrix<f64, 8, 8>;
+type Vector8 = SVector<f64, 8>;
+
+/// Derivatives of a patch at a node: `R_u, R_v, R_uu, R_uv, R_vv`.
+type Derivatives = [DVec3; 5];
+const ORDERS: [[usize; 2]; 5] = [[1, 0], [0, 1], [2, 0], [1, 1], [0, 2]];
+
+/// Quadrature over the unit square with everything that depends on the boundary sampled.
+struct Grid<'a, S> {
+    patch: &'a CoonsPatch<S>,
+    lines: Vec<([Line; 2], f64)>,
+    /// For every node and free parameter, the part of the basis surface along `u` and along `v`.
+    movers: Vec<[[[DVec3; 3]; 8]; 2]>,
+    directions: [DVec3; 8],
+}
+
+impl<'a, S: Strip> Grid<'a, S> {
+    fn new(patch: &'a CoonsPatch<S>) -> Self {
+        let rectangle = patch.rectangle();
+        let rule = gauss(NODES);
+        let lines: Vec<([Line; 2], f64)> =
+            rule.iter().map(|(t, w)| ([patch.line(false, *t), patch.line(true, *t)], *w)).collect();
+        let directions = from_fn(|k| rectangle.free_direction(k).1);
+        let movers = lines
+            .iter()
+            .map(|(pair, _)| [0, 1].map(|axis: usize| from_fn(|k| mover(rectangle, &pair[axis], axis, k))))
+            .collect();
+        Self { patch, lines, movers, directions }
+    }
+
+    /// Calls `visit` with the derivatives of `R_0 + sum w B` and of the basis at every node, and its weight.
+    fn visit(&self, mut visit: impl FnMut(&Derivatives, &[Derivatives; 8], f64)) {
+        for (i, (u, wu)) in self.lines.iter().enumerate() {
+            for (j, (v, wv)) in self.lines.iter().enumerate() {
+                let (u, v) = (&u[0], &v[1]);
+                let patch = ORDERS.map(|[a, b]| self.patch.derivative(u, v, a, b));
+                let basis: [Derivatives; 8] = from_fn(|k| {
+                    let [ci, cj] = CORNERS[k / 2];
+                    let (ku, kv) = (1 + ci, 1 + cj);
+                    ORDERS.map(|[a, b]| {
+                        let (hu, hv) = (u.functions[a][ku], v.functions[b][kv]);
+                        self.movers[i][0][k][a] * hv + self.movers[j][1][k][b] * hu - self.directions[k] * (hu * hv)
+                    })
+                });
+                visit(&patch, &basis, wu * wv);
+            }
+        }
+    }
+}
+
+/// The change of the transverse field along the boundary of a corner, at a line, when a free parameter of that
+/// corner grows by one: its slope at the corner's end moves by the direction of the parameter.
+fn mover<S: Strip>(rectangle: &Rectangle<S>, line: &Line, axis: usize, parameter: usize) -> [DVec3; 3] {
+    let (corner, direction) = rectangle.free_direction(parameter);
+    let [i, j] = CORNERS[corner];
+    // Along u the boundary is v = j and the end u = i; along v the other way round.
+    let (which, end) = if axis == 0 { (j, i) } else { (i, j) };
+    let side = 2 * which + axis;
+    let [p, q] = components(&rectangle.strips()[side].sample(end as f64), direction);
+    let sample = &line.samples[which];
+    let slope = line.functions.map(|row| row[1 + end]);
+    let at = |k: usize| sample.along[k] * p + sample.across[k] * q;
+    [at(0) * slope[0], at(0) * slope[1] + at(1) * slope[0], at(0) * slope[2] + at(1) * (2.0 * slope[1]) + at(2) * slope[0]]
+}
+
+impl Criterion {
+    /// The vectors whose squares are integrated (quadratic criteria).
+    fn integrand(self, d: &Derivatives) -> [DVec3; 3] {
+        match self {
+            Self::ThinPlate => [d[2], d[3] * core::f64::consts::SQRT_2, d[4]],
+            _ => [d[0], d[1], DVec3::ZERO],
+        }
+    }
+}
+
+impl<S: Strip> Rectangle<S> {
+    /// The patch that minimises a criterion.
+    ///
+    /// # Errors
+    /// [`Error::DegenerateEnergy`]; [`Error::IrregularBoundary`] when the minimum folds at a boundary.
+    pub fn smoothest(&self, criterion: Criterion) -> Result<Smoothed<S>, Error> {
+        let smoothed = self.smoothest_unchecked(criterion)?;
+        self.patch(*smoothed.patch.twists())?;
+        Ok(smoothed)
+    }
+
+    pub(crate) fn smoothest_unchecked(&self, criterion: Criterion) -> Result<Smoothed<S>, Error> {
+        let flat = self.patch_unchecked([[0.0; 2]; 4])?;
+        let grid = Grid::new(&flat);
+        let (w, energy, energy_at_zero, matrix) = match criterion {
+            Criterion::SpeedVariation => least_speed_variation(&grid)?,
+            _ => quadratic_minimum(&grid, criterion)?,
+        };
+        let mut eigenvalues: [f64; 8] = matrix.symmetric_eigenvalues().into();
+        eigenvalues.sort_by(f64::total_cmp);
+        let patch = self.patch_unchecked(from_fn(|c| [w[2 * c], w[2 * c + 1]]))?;
+        Ok(Smoothed { patch, energy, energy_at_zero, eigenvalues })
+    }
+}
+
+impl<S: Strip> CoonsPatch<S> {
+    /// The energy of this patch under a criterion.
+    #[must_use]
+    pub fn energy(&self, criterion: Criterion) -> f64 {
+        let rule = gauss(NODES);
+        let lines: Vec<([Line; 2], f64)> =
+            rule.iter().map(|(t, w)| ([self.line(false, *t), self.line(true, *t)], *w)).collect();
+        let mut sum = 0.0;
+        for ([u, _], wu) in &lines {
+            for ([_, v], wv) in &lines {
+                let d = ORDERS.map(|[a, b]| self.derivative(u, v, a, b));
+                let density = match criterion {
+                    Criterion::SpeedVariation => speed_residuals(&d).map(|r| r * r).iter().sum::<f64>(),
+                    _ => criterion.integrand(&d).map(|x| x.length_squared()).iter().sum(),
+                };
+                sum += wu * wv * density;
+            }
+        }
+        sum
+    }
+}
+
+/// `G_kl = int <D B_k, D B_l>`, `g_k = int <D R_0, D B_k>`, `w = -G^-1 g`, `E = E_0 + g . w`.
+fn quadratic_minimum<S: Strip>(
+    grid: &Grid<'_, S>,
+    criterion: Criterion,
+) -> Result<(Vector8, f64, f64, Matrix8), Error> {
+    let (mut matrix, mut gradient, mut at_zero) = (Matrix8::zeros(), Vector8::zeros(), 0.0);
+    grid.visit(|patch, basis, weight| {
+        let d0 = criterion.integrand(patch);
+        let d: [[DVec3; 3]; 8] = from_fn(|k| criterion.integrand(&basis[k]));
+        let dot = |a: &[DVec3; 3], b: &[DVec3; 3]| a[0].dot(b[0]) + a[1].dot(b[1]) + a[2].dot(b[2]);
+        at_zero += weight * dot(&d0, &d0);
+        for k in 0..8 {
+            gradient[k] += weight * dot(&d0, &d[k]);
+            for l in 0..=k {
+                matrix[(k, l)] += weight * dot(&d[k], &d[l]);
+            }
+        }
+    });
+    matrix.fill_upper_triangle_with_lower_triangle();
+    let w = solve(&matrix, &-gradient)?;
+    Ok((w, at_zero + gradient.dot(&w), at_zero, matrix))
+}
+
+fn solve(matrix: &Matrix8, right: &Vector8) -> Result<Vector8, Error> {
+    let factors = matrix.cholesky().ok_or(Error::DegenerateEnergy)?;
+    let diagonal = factors.l_dirty().diagonal();
+    let (least, largest) = (diagonal.min(), diagonal.max());
+    if !(largest * largest <= CONDITION * least * least) {
+        return Err(Error::DegenerateEnergy);
+    }
+    Ok(factors.solve(right))
+}
+
+/// `d|R_u|/du` and `d|R_v|/dv`.
+fn speed_residuals(d: &Derivatives) -> [f64; 2] {
+    [d[0].dot(d[2]) / d[0].length(), d[1].dot(d[4]) / d[1].length()]
+}
+
+/// Gauss-Newton with Levenberg's damping, from the Dirichlet minimum.
+fn least_speed_variation<S: Strip>(grid: &Grid<'_, S>) -> Result<(Vector8, f64, f64, Matrix8), Error> {
+    let (start, ..) = quadratic_minimum(grid, Criterion::Dirichlet)?;
+    let (at_zero, ..) = speed_model(grid, &Vector8::zeros());
+    let mut w = start;
+    let (mut energy, mut gradient, mut matrix) = speed_model(grid, &w);
+    let mut damping = 1e-6;
+    for _ in 0..STEPS {
+        let scale = matrix.trace() / 8.0;
+        let step = solve(&(matrix + Matrix8::identity() * (damping * scale)), &-gradient)?;
+        let (trial, g, m) = speed_model(grid, &(w + step));
+        if trial <= energy {
+            let gain = energy - trial;
+            w += step;
+            (energy, gradient, matrix) = (trial, g, m);
+            damping = (0.1 * damping).max(1e-15);
+            if gain <= CONVERGED * at_zero.max(f64::MIN_POSITIVE) {
+                break;
+            }
+        } else {
+            damping *= 10.0;
+            if damping > 1e12 {
+                break;
+            }
+        }
+    }
+    Ok((w, energy, at_zero, matrix))
+}
+
+/// The speed variation at `w`, half its gradient, and the Gauss-Newton matrix.
+fn speed_model<S: Strip>(grid: &Grid<'_, S>, w: &Vector8) -> (f64, Vector8, Matrix8) {
+    let (mut energy, mut gradient, mut matrix) = (0.0, Vector8::zeros(), Matrix8::zeros());
+    grid.visit(|patch, basis, weight| {
+        let d: Derivatives = from_fn(|o| (0..8).fold(patch[o], |sum, k| sum + basis[k][o] * w[k]));
+        let residuals = speed_residuals(&d);
+        for (n, [first, second]) in [[0, 2], [1, 4]].into_iter().enumerate() {
+            let length = d[first].length();
+            let unit = d[first] / length;
+            let slopes = Vector8::from_fn(|k, _| {
+                let (b1, b2) = (basis[k][first], basis[k][second]);
+                unit.dot(b2) + (b1.dot(d[second]) - unit.dot(b1) * unit.dot(d[second])) / length
+            });
+            energy += weight * residuals[n] * residuals[n];
+            gradient += slopes * (weight * residuals[n]);
+            matrix.ger(weight, &slopes, &slopes, 1.0);
+        }
+    });
+    (energy, gradient, matrix)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{AnalyticCurve, GeodesicStrip, Series, Surface, boundary_geodesic_curvature};
+
+    /// Helices over an affine quadrangle of the unit cylinder's `(theta, z)`.
+    fn cylinder() -> Rectangle {
+        let corner = [[0.0, 0.0], [1.0, 0.2], [0.3, 0.9], [1.2, 1.3]];
+        let helix = move |a: usize, b: usize| {
+            GeodesicStrip::new(AnalyticCurve::new(move |t: Series| {
+                let [theta, z] = [0, 1].map(|k| t * (corner[b][k] - corner[a][k]) + corner[a][k]);
+                [theta.cos(), theta.sin(), z]
+            }))
+            .unwrap()
+        };
+        Rectangle::new([helix(0, 1), helix(0, 2), helix(2, 3), helix(1, 3)]).unwrap()
+    }
+
+    #[test]
+    fn each_minimum_is_the_least_of_its_column_and_stationary() {
+        let rectangle = cylinder();
+        let criteria = [Criterion::SpeedVariation, Criterion::Dirichlet, Criterion::ThinPlate];
+        let smoothed = criteria.map(|c| rectangle.smoothest(c).unwrap());
+        for (c, criterion) in criteria.into_iter().enumerate() {
+            let own = smoothed[c].patch.energy(criterion);
+            assert!((own - smoothed[c].energy).abs() <= 1e-12 * smoothed[c].energy_at_zero);
+            for other in &smoothed {
+                assert!(own <= other.patch.energy(criterion) * (1.0 + 1e-9) + 1e-14);
+            }
+            for k in 0..8 {
+                for step in [1e-3, -1e-3] {
+                    let mut twists = *smoothed[c].patch.twists();
+                    twists[k / 2][k % 2] += step;
+                    assert!(rectangle.patch(twists).unwrap().energy(criterion) > own, "{criterion:?} {k}");
+                }
+            }
+            assert!(boundary_geodesic_curvature(&smoothed[c].patch, 16) < 1e-12);
+        }
+        // The thin plate through four helices is very nearly the cylinder, and its speed hardly varies.
+        let plate = &smoothed[2].patch;
+        let radius = |u: f64, v: f64| plate.point(u, v).truncate().length();
+        assert!((radius(0.4, 0.6) - 1.0).abs() < 2e-6);
+        assert!(smoothed[0].energy < 1e-8);
+    }
+}
