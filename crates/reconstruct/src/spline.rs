@@ -217,6 +217,17 @@ impl<V: VectorSpace> CubicSpline<V> {
 }
 
 impl CubicSpline<f64> {
+    /// The uniform cubic B-spline over `[0, 1]` with these coefficients, three more than its spans.
+    pub(crate) fn from_uniform_coefficients(c: &[f64]) -> Self {
+        let spans = c.len() - 3;
+        let step = 1.0 / spans as f64;
+        Self {
+            knots: (0..=spans).map(|k| k as f64 * step).collect(),
+            values: c.windows(3).map(|c| (c[0] + 4.0 * c[1] + c[2]) / 6.0).collect(),
+            moments: c.windows(3).map(|c| (c[0] - 2.0 * c[1] + c[2]) / (step * step)).collect(),
+        }
+    }
+
     /// The spline of a function: value and derivatives through the point of expansion.
     #[must_use]
     pub fn of_series(&self, s: Series) -> Series {

@@ -1,0 +1,443 @@
+//! Bézier boundaries from corner data, so that the conditions C1 and C3 hold by construction.
+//!
+//! Section 3.7 of the thesis chapter: polynomial curves of degree 7, and rational ones of degree 5. Both take the
+//! corner points, the tangent planes, the directions of the curves in them and their curvatures; the torsions
+//! follow from the crossing identity. C2 is to be checked afterwards: a curve may inflect between its ends.
+
+use crate::Error;
+use bezier_mass::{BezierCurve, MassPoint, bernstein};
+use core::array::from_fn;
+use glam::DVec3;
+use nalgebra::{SMatrix, SVector};
+
+/// The four corners `[i][j]` of a rectangle at `u = i`, `v = j`.
+pub type Corners = [[CornerData; 2]; 2];
+
+/// What is known of a surface at a corner of a patch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct CornerData {
+    point: DVec3,
+    normal: DVec3,
+    tangents: [DVec3; 2],
+    curvatures: [f64; 2],
+    torsion_difference: f64,
+}
+
+/// Largest cosine between a tangent and the normal that counts as a slip of rounding and is projected away.
+const ORTHOGONAL: f64 = 1e-6;
+/// Smallest sine between the two tangents, and smallest curvature in units of one over the patch size is left to
+/// the user: zero only is refused.
+const PARALLEL: f64 = 1e-6;
+
+impl CornerData {
+    /// The corner at `point` with the surface normal `normal`, tangents along increasing `u` and `v` in the tangent
+    /// plane (any lengths), and the normal curvatures of the two boundaries, one over length: positive where the
+    /// boundary bends towards `normal`.
+    ///
+    /// # Errors
+    /// [`Error::CornerData`] (with corner `[0, 0]`) for numbers that are not finite, zero vectors, tangents out of
+    /// the tangent plane or parallel, `(tangent_u x tangent_v)` opposite to the normal, and for a curvature of zero,
+    /// which leaves the osculating plane open.
+    pub fn new(point: DVec3, normal: DVec3, tangents: [DVec3; 2], curvatures: [f64; 2]) -> Result<Self, Error> {
+        let refuse = |what, value| Err(Error::CornerData { corner: [0, 0], what, value });
+        let finite = point.is_finite() && normal.is_finite() && tangents.iter().all(|t| t.is_finite());
+        if !finite || !curvatures.iter().all(|k| k.is_finite()) {
+            return refuse("a number is not finite", f64::NAN);
+        }
+        let Some(normal) = normal.try_normalize() else { return refuse("the normal is zero", 0.0) };
+        let mut units = [DVec3::ZERO; 2];
+        for (unit, tangent) in units.iter_mut().zip(tangents) {
+            let Some(direction) = tangent.try_normalize() else { return refuse("a tangent is zero", 0.0) };
+            let slip = direction.dot(normal);
+            if slip.abs() > ORTHOGONAL {
+                return refuse("a tangent leaves the tangent plane (cosine to the normal)", slip);
+            }
+            *unit = (direction - normal * slip).normalize();
+        }
+        let sine = units[0].cross(units[1]).dot(normal);
+        if sine.abs() < PARALLEL {
+            return refuse("the tangents are parallel (sine)", sine);
+        }
+        if sine < 0.0 {
+            return refuse("the tangents are ordered against the normal (sine)", sine);
+        }
+        if curvatures.contains(&0.0) {
+            return refuse("a boundary has no curvature", 0.0);
+        }
+        Ok(Self { point, normal, tangents: units, curvatures, torsion_difference: 0.0 })
+    }
+
+    /// The same corner with another split of the torsions: that of the boundary along `u` minus that along `v`.
+    #[must_use]
+    pub fn with_torsion_difference(self, difference: f64) -> Self {
+        Self { torsion_difference: difference, ..self }
+    }
+
+    /// The point.
+    #[must_use]
+    pub fn point(&self) -> DVec3 {
+        self.point
+    }
+
+    /// The unit normal of the surface.
+    #[must_use]
+    pub fn normal(&self) -> DVec3 {
+        self.normal
+    }
+
+    /// The unit tangents along `u` and `v`.
+    #[must_use]
+    pub fn tangents(&self) -> [DVec3; 2] {
+        self.tangents
+    }
+
+    /// The normal curvatures of the boundaries along `u` and `v`.
+    #[must_use]
+    pub fn curvatures(&self) -> [f64; 2] {
+        self.curvatures
+    }
+
+    /// The sum of the two torsions that the crossing identity (3.7) asks for.
+    #[must_use]
+    pub fn torsion_sum(&self) -> f64 {
+        let [e1, e2] = self.tangents;
+        let [k1, k2] = self.curvatures;
+        (k2 - k1) * e1.dot(e2) / e1.cross(e2).dot(self.normal)
+    }
+
+    /// The torsions of the boundaries along `u` and `v`: equal unless another split was asked for.
+    #[must_use]
+    pub fn torsions(&self) -> [f64; 2] {
+        let half = 0.5 * self.torsion_sum();
+        [half + 0.5 * self.torsion_difference, half - 0.5 * self.torsion_difference]
+    }
+}
+
+/// How the freedom of a degree-7 boundary is used.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Degree7Shape {
+    /// `|r'|` at both ends; the distance of the ends if not given.
+    pub speed: Option<f64>,
+    /// The derivative of the speed at both ends.
+    pub speed_derivative: f64,
+    /// The components of `r'''` along the tangent and the principal normal.
+    pub third_derivative: ThirdDerivative,
+}
+
+/// How the components of `r'''` along tangent and principal normal, which the corner data leave free, are chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum ThirdDerivative {
+    /// The same two numbers at all ends.
+    Given([f64; 2]),
+    /// Those of least `int |r''|²`.
+    LeastBending,
+    /// Those of least `int |r'''|²`: the default, without the overshoot that zero has.
+    LeastJerk,
+}
+
+impl Default for Degree7Shape {
+    fn default() -> Self {
+        Self { speed: None, speed_derivative: 0.0, third_derivative: ThirdDerivative::LeastJerk }
+    }
+}
+
+/// One end of a boundary curve: data with the curve's own direction of travel.
+#[derive(Clone, Copy, Debug)]
+struct CurveEnd {
+    point: DVec3,
+    tangent: DVec3,
+    normal: DVec3,
+    curvature: f64,
+    torsion: f64,
+}
+
+fn curve_end(corner: &CornerData, along: usize) -> CurveEnd {
+    CurveEnd {
+        point: corner.point,
+        tangent: corner.tangents[along],
+        normal: corner.normal,
+        curvature: corner.curvatures[along],
+        torsion: corner.torsions()[along],
+    }
+}
+
+/// The ends of `r1(u)`, `r2(v)`, `r3(u)`, `r4(v)` in the corners, as `[corner i, corner j]` pairs with the axis.
+const SIDES: [(usize, [[usize; 2]; 2]); 4] =
+    [(0, [[0, 0], [1, 0]]), (1, [[0, 0], [0, 1]]), (0, [[0, 1], [1, 1]]), (1, [[1, 0], [1, 1]])];
+
+/// Four degree-7 Bézier boundaries `r1(u)`, `r2(v)`, `r3(u)`, `r4(v)` with the given corner data. They satisfy C1
+/// and C3; whether they satisfy C2, and bend as wanted between the corners, the check of the rectangle says.
+///
+/// # Errors
+/// [`Error::CornerData`] for two corners at one point; [`Error::OutOfRange`] for a speed that is not positive.
+pub fn degree7_boundaries(corners: &Corners, shape: &Degree7Shape) -> Result<[BezierCurve<DVec3>; 4], Error> {
+    if let Some(value) = shape.speed
+        && !(value > 0.0 && value.is_finite())
+    {
+        return Err(Error::OutOfRange { what: "speed", value, range: [0.0, f64::INFINITY] });
+    }
+    let mut curves = Vec::with_capacity(4);
+    for (axis, [a, b]) in SIDES {
+        let ends = [a, b].map(|[i, j]| curve_end(&corners[i][j], axis));
+        let chord = ends[0].point.distance(ends[1].point);
+        if !(chord > 0.0) {
+            return Err(Error::CornerData { corner: b, what: "two corners coincide (distance)", value: chord });
+        }
+        curves.push(BezierCurve::polynomial(&degree7(&ends, chord, shape))?);
+    }
+    four(curves)
+}
+
+fn four<T>(values: Vec<T>) -> Result<[T; 4], Error> {
+    let got = values.len();
+    values.try_into().map_err(|_| Error::TooFew { what: "boundaries", needed: 4, got })
+}
+
+/// The control points of one degree-7 curve.
+fn degree7(ends: &[CurveEnd; 2], chord: f64, shape: &Degree7Shape) -> [DVec3; 8] {
+    let speed = shape.speed.unwrap_or(chord);
+    let with = |free: [[f64; 2]; 2]| degree7_control(ends, speed, shape.speed_derivative, free);
+    match shape.third_derivative {
+        ThirdDerivative::Given(components) => with([components; 2]),
+        ThirdDerivative::LeastBending => with(least_energy(&with, 2)),
+        ThirdDerivative::LeastJerk => with(least_energy(&with, 3)),
+    }
+}
+
+/// `b0..b3` from the first four derivatives at 0, `b7..b4` from those at 1; `free` are the components of `r'''`
+/// along `e` and `n` at both ends.
+fn degree7_control(ends: &[CurveEnd; 2], v: f64, a: f64, free: [[f64; 2]; 2]) -> [DVec3; 8] {
+    let derivatives = |end: &CurveEnd, [c_e, c_n]: [f64; 2]| {
+        let (e, n) = (end.tangent, end.normal * end.curvature.signum());
+        let k = end.curvature.abs();
+        let first = e * v;
+        let second = e * a + n * (v * v * k);
+        let third = e * c_e + n * c_n + e.cross(n) * (v.powi(3) * k * end.torsion);
+        [first / 7.0, second / 42.0, third / 210.0]
+    };
+    let [p0, p7] = [ends[0].point, ends[1].point];
+    let ([d1, d2, d3], [g1, g2, g3]) = (derivatives(&ends[0], free[0]), derivatives(&ends[1], free[1]));
+    let b1 = p0 + d1;
+    let b2 = b1 * 2.0 - p0 + d2;
+    let b3 = b2 * 3.0 - b1 * 3.0 + p0 + d3;
+    let b6 = p7 - g1;
+    let b5 = b6 * 2.0 - p7 + g2;
+    let b4 = b5 * 3.0 - b6 * 3.0 + p7 - g3;
+    [p0, b1, b2, b3, b4, b5, b6, p7]
+}
+
+/// The free components that minimise the integral of the squared derivative of this order. The curve is affine in
+/// them: one small linear system.
+fn least_energy(control: &impl Fn([[f64; 2]; 2]) -> [DVec3; 8], order: usize) -> [[f64; 2]; 2] {
+    let differentiated = |points: &[DVec3]| (0..order).fold(points.to_vec(), |p, _| bernstein::derivative(&p));
+    let base = control([[0.0; 2]; 2]);
+    let start = differentiated(&base);
+    let basis: [Vec<DVec3>; 4] = from_fn(|k| {
+        let mut free = [[0.0; 2]; 2];
+        free[k / 2][k % 2] = 1.0;
+        let moved = control(free);
+        differentiated(&from_fn::<DVec3, 8, _>(|i| moved[i] - base[i]))
+    });
+    let matrix = SMatrix::<f64, 4, 4>::from_fn(|k, l| integral_of_product(&basis[k], &basis[l]));
+    let right = SVector::<f64, 4>::from_fn(|k, _| -integral_of_product(&start, &basis[k]));
+    // Positive definite: the four directions are linearly independent polynomials.
+    let free = matrix.cholesky().map_or_else(SVector::zeros, |factors| factors.solve(&right));
+    [[free[0], free[1]], [free[2], free[3]]]
+}
+
+/// The integral over `[0, 1]` of the scalar product of two polynomials.
+fn integral_of_product(a: &[DVec3], b: &[DVec3]) -> f64 {
+    let product: Vec<f64> = bernstein::product_with(a, b, |x, y| x.dot(*y));
+    product.iter().sum::<f64>() / product.len() as f64
+}
+
+/// Curvature and torsion of a curve at one end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct EndInvariants {
+    /// Curvature, not negative, one over length.
+    pub curvature: f64,
+    /// Torsion, one over length.
+    pub torsion: f64,
+}
+
+/// A torsion below this part of the curvature is that of a plane curve to rounding.
+const PLANAR: f64 = 1e-12;
+
+impl EndInvariants {
+    /// The torsion, exactly zero where it is zero to rounding.
+    fn settled_torsion(self) -> f64 {
+        if self.torsion.abs() <= PLANAR * self.curvature { 0.0 } else { self.torsion }
+    }
+}
+
+/// Curvature and torsion at both ends of a rational quintic:
+/// `k = (4/5) (w0 w2 / w1²) h / a²`, `tau = (3/5) (w0 w3 / (w1 w2)) c / (a h)`, with `a = |p1 - p0|`, `h` the
+/// distance of `p2` from the line `p0 p1`, `c` the signed distance of `p3` from the plane `p0 p1 p2`.
+///
+/// # Errors
+/// [`Error::NonFinite`], [`Error::OutOfRange`] for a weight that is not positive, [`Error::ZeroVector`] for
+/// coinciding end points, [`Error::Inflection`] for three collinear ones.
+pub fn quintic_end_invariants(points: &[DVec3; 6], weights: &[f64; 6]) -> Result<[EndInvariants; 2], Error> {
+    if let Some(&value) = weights.iter().find(|w| !(w.is_finite() && **w > 0.0)) {
+        return Err(Error::OutOfRange { what: "weight", value, range: [0.0, f64::INFINITY] });
+    }
+    let mut reversed = (*points, *weights);
+    reversed.0.reverse();
+    reversed.1.reverse();
+    Ok([invariants_at_start(points, weights, 0)?, invariants_at_start(&reversed.0, &reversed.1, 1)?])
+}
+
+fn invariants_at_start(p: &[DVec3; 6], w: &[f64; 6], end: usize) -> Result<EndInvariants, Error> {
+    if let Some(index) = p.iter().position(|p| !p.is_finite()) {
+        return Err(Error::NonFinite { what: "control point", index });
+    }
+    let (first, second) = (p[1] - p[0], p[2] - p[0]);
+    let a = first.length();
+    if a == 0.0 {
+        return Err(Error::ZeroVector { what: "end tangent", index: end });
+    }
+    let across = first.cross(second);
+    let h = across.length() / a;
+    if h <= f64::EPSILON * second.length() {
+        return Err(Error::Inflection { side: 0, t: end as f64 });
+    }
+    let c = (p[3] - p[0]).dot(across.normalize());
+    Ok(EndInvariants {
+        curvature: 0.8 * w[0] * w[2] / (w[1] * w[1]) * h / (a * a),
+        torsion: 0.6 * w[0] * w[3] / (w[1] * w[2]) * c / (a * h),
+    })
+}
+
+/// The weights `1, w1, .., w4, 1` with which a rational quintic has the wanted curvatures and torsions at its ends:
+/// unique and positive, by a linear system in their logarithms. A torsion of zero is met where the control points
+/// give zero already.
+///
+/// # Errors
+/// [`Error::TorsionSign`] where a torsion has not the sign that the control points give it;
+/// [`Error::OutOfRange`] for a curvature that is not positive; those of [`quintic_end_invariants`].
+pub fn quintic_weights(points: &[DVec3; 6], wanted: [EndInvariants; 2]) -> Result<[f64; 6], Error> {
+    let natural = quintic_end_invariants(points, &[1.0; 6])?;
+    let mut logarithms = [[0.0; 2]; 2];
+    for (end, (wanted, natural)) in wanted.into_iter().zip(natural).enumerate() {
+        if !(wanted.curvature > 0.0 && wanted.curvature.is_finite()) {
+            return Err(Error::OutOfRange { what: "curvature", value: wanted.curvature, range: [0.0, f64::INFINITY] });
+        }
+        let flat = natural.settled_torsion() == 0.0;
+        let ratio = if wanted.torsion == 0.0 && flat { 1.0 } else { wanted.torsion / natural.torsion };
+        if !(ratio > 0.0 && ratio.is_finite()) || (flat && wanted.torsion != 0.0) {
+            return Err(Error::TorsionSign { end, wanted: wanted.torsion, natural: natural.torsion });
+        }
+        logarithms[end] = [(wanted.curvature / natural.curvature).ln(), ratio.ln()];
+    }
+    // y - 2x = a, z - x - y = b, z - 2t = c, y - t - z = d for the logarithms x, y, z, t of w1..w4.
+    let [[a, b], [c, d]] = logarithms;
+    // y = a + 2x, z = a + b + 3x, t = (a + b - c + 3x) / 2; the last equation is then linear in x:
+    // a + 2x - (a + b - c + 3x)/2 - (a + b + 3x) = d.
+    let x = (-d - b - 0.5 * (a + b - c)) / 2.5;
+    let (y, z) = (a + 2.0 * x, a + b + 3.0 * x);
+    let t = 0.5 * (z - c);
+    Ok([1.0, x.exp(), y.exp(), z.exp(), t.exp(), 1.0])
+}
+
+/// Lengths of the end legs `p0 p1` and of the next legs along the tangent, in parts of the chord, that are tried
+/// for a rational quintic; the first is the plain fifth.
+const LEGS: [[f64; 2]; 6] = [[0.2, 0.2], [0.2, 0.1], [0.2, 0.3], [0.15, 0.3], [0.3, 0.1], [0.1, 0.2]];
+
+/// Four rational quintic boundaries with the given corner data: points, tangent planes, osculating planes and
+/// curvatures at the corners. Control points are laid out in the osculating planes so that the curvatures are met
+/// with unit weights; the torsions are split at each corner so that their signs fit, and the weights follow.
+///
+/// # Errors
+/// [`Error::CornerData`] for two corners at one point; [`Error::TorsionSign`] when at some corner neither any
+/// split nor any of the layouts tried gives torsions of the right sum and signs.
+pub fn rational_quintic_boundaries(corners: &Corners) -> Result<[BezierCurve<DVec3>; 4], Error> {
+    let mut refusal = Error::TorsionSign { end: 0, wanted: 0.0, natural: 0.0 };
+    let mut best: Option<(f64, [BezierCurve<DVec3>; 4])> = None;
+    for legs in LEGS {
+        match quintic_layout(corners, legs) {
+            Ok((effort, curves)) => {
+                if best.as_ref().is_none_or(|(least, _)| effort < *least) {
+                    best = Some((effort, curves));
+                }
+            }
+            Err(error @ Error::CornerData { .. }) => return Err(error),
+            Err(error) => refusal = error,
+        }
+    }
+    best.map(|(_, curves)| curves).ok_or(refusal)
+}
+
+/// The curves of one layout, with the largest logarithm of a weight.
+fn quintic_layout(corners: &Corners, legs: [f64; 2]) -> Result<(f64, [BezierCurve<DVec3>; 4]), Error> {
+    let mut points = Vec::with_capacity(4);
+    let mut natural = Vec::with_capacity(4);
+    for (axis, [a, b]) in SIDES {
+        let ends = [a, b].map(|[i, j]| curve_end(&corners[i][j], axis));
+        let chord = ends[0].point.distance(ends[1].point);
+        if !(chord > 0.0) {
+            return Err(Error::CornerData { corner: b, what: "two corners coincide (distance)", value: chord });
+        }
+        let control = quintic_control(&ends, chord, legs);
+        natural.push(quintic_end_invariants(&control, &[1.0; 6])?);
+        points.push(control);
+    }
+    let mut wanted = natural.clone();
+    for i in 0..2 {
+        for j in 0..2 {
+            let (along_u, along_v) = (2 * j, 1 + 2 * i);
+            let naturals = [natural[along_u][i], natural[along_v][j]].map(EndInvariants::settled_torsion);
+            let torsions = split_torsion(corners[i][j].torsion_sum(), naturals)?;
+            wanted[along_u][i].torsion = torsions[0];
+            wanted[along_v][j].torsion = torsions[1];
+        }
+    }
+    let mut effort: f64 = 0.0;
+    let mut curves = Vec::with_capacity(4);
+    for (control, wanted) in points.iter().zip(wanted) {
+        let weights = quintic_weights(control, wanted)?;
+        effort = weights.iter().fold(effort, |m, w| m.max(w.ln().abs()));
+        let control = control.iter().zip(weights).map(|(p, w)| MassPoint::point(*p, w)).collect();
+        curves.push(BezierCurve::new(control)?);
+    }
+    Ok((effort, four(curves)?))
+}
+
+/// `p1` on the tangent, `p2` in the osculating plane on the side of the principal normal at the height that gives
+/// the curvature with unit weights, `k = (4/5) h / a²`; the same at the other end.
+fn quintic_control(ends: &[CurveEnd; 2], chord: f64, [leg, next]: [f64; 2]) -> [DVec3; 6] {
+    let a = leg * chord;
+    let inner = |end: &CurveEnd, forward: f64| {
+        let first = end.point + end.tangent * (forward * a);
+        let height = end.normal * (1.25 * end.curvature * a * a);
+        (first, first + end.tangent * (forward * next * chord) + height)
+    };
+    let ((p1, p2), (p4, p3)) = (inner(&ends[0], 1.0), inner(&ends[1], -1.0));
+    [ends[0].point, p1, p2, p3, p4, ends[1].point]
+}
+
+/// Torsions with the wanted sum, each of the sign that its control points give.
+fn split_torsion(sum: f64, natural: [f64; 2]) -> Result<[f64; 2], Error> {
+    let [a, b] = natural;
+    let split = if a == 0.0 {
+        [0.0, sum]
+    } else if b == 0.0 {
+        [sum, 0.0]
+    } else if a * b > 0.0 {
+        [sum * a / (a + b), sum * b / (a + b)]
+    } else if (sum - a - b) * a >= 0.0 {
+        // More of the sign of the first is needed: enlarge it.
+        [sum - b, b]
+    } else {
+        [a, sum - a]
+    };
+    for (end, (wanted, natural)) in split.into_iter().zip(natural).enumerate() {
+        if wanted * natural < 0.0 || (wanted == 0.0) != (natural == 0.0) {
+            return Err(Error::TorsionSign { end, wanted, natural });
+        }
+    }
+    Ok(split)
+}
