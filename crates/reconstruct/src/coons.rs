@@ -301,8 +301,11 @@ impl<S: Strip> CoonsPatch<S> {
     }
 
     /// Refuses a patch that folds at a boundary: `R_u x R_v` there is `q` times a vector that never vanishes, so
-    /// the cubic `q` must keep its sign.
-    fn check_boundary(&self) -> Result<(), Error> {
+    /// the cubic `q` must keep its sign. Patches made by [`Rectangle::patch`] have passed this.
+    ///
+    /// # Errors
+    /// [`Error::IrregularBoundary`] with the side and the place.
+    pub fn check_boundary(&self) -> Result<(), Error> {
         for (side, field) in self.fields.iter().enumerate() {
             let scale = field.across[0].abs().max(field.across[3].abs());
             let (least, t) = least_same_sign(field.across);

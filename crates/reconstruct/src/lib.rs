@@ -45,3 +45,7 @@ mod triangle;
 mod two_curves;
 pub use triangle::{SmoothedTriangle, Triangle, TrianglePatch, TriangleTwists, barycentric_gradients, check_triangle};
 pub use two_curves::{EndField, Freedom, HermiteArc, LeastMagnitudes, LocalCriterion, ScalarFunction, StripChain, TwoCurveSurface};
+mod network;
+mod sampled;
+pub use network::{Crossing, RibbonNetwork};
+pub use sampled::SampledCurve;

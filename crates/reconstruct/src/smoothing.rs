@@ -128,12 +128,17 @@ impl<S: Strip> Rectangle<S> {
     /// # Errors
     /// [`Error::DegenerateEnergy`]; [`Error::IrregularBoundary`] when the minimum folds at a boundary.
     pub fn smoothest(&self, criterion: Criterion) -> Result<Smoothed<S>, Error> {
-        let smoothed = self.smoothest_unchecked(criterion)?;
-        self.patch(*smoothed.patch.twists())?;
+        let smoothed = self.least_energy(criterion)?;
+        smoothed.patch.check_boundary()?;
         Ok(smoothed)
     }
 
-    pub(crate) fn smoothest_unchecked(&self, criterion: Criterion) -> Result<Smoothed<S>, Error> {
+    /// The minimum of a criterion wherever it lies, also where the patch folds at a boundary; ask
+    /// [`CoonsPatch::check_boundary`].
+    ///
+    /// # Errors
+    /// [`Error::DegenerateEnergy`].
+    pub fn least_energy(&self, criterion: Criterion) -> Result<Smoothed<S>, Error> {
         let flat = self.patch_unchecked([[0.0; 2]; 4])?;
         let grid = Grid::new(&flat);
         let (w, energy, energy_at_zero, matrix) = match criterion {

@@ -208,7 +208,9 @@ impl EndVectorProblem {
         let mut values = DVector::from_vec(start);
         let model = |values: &DVector<f64>| {
             let (mut energy, mut gradient, mut matrix) = (0.0, DVector::zeros(n), DMatrix::zeros(n, n));
-            for (node, weight) in SIX.iter().flat_map(|(x, w)| [(0.5 * x, 0.5 * w), (0.5 + 0.5 * x, 0.5 * w)]) {
+            // Four panels: the integrand is a quotient and peaks where the speed is small.
+            let panels = (0..4).flat_map(|k| SIX.map(|(x, w)| (0.25 * (f64::from(k) + x), 0.25 * w)));
+            for (node, weight) in panels {
                 let h = hermite(node);
                 let coefficient = |order: usize, end: usize| h[order][1 + end];
                 let derivative = |order: usize| {
