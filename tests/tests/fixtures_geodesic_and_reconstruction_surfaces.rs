@@ -5,12 +5,12 @@ use core::array::from_fn;
 use glam::{DVec2, DVec3};
 use integration_tests::{Case, Tolerance, judge, number, numbers, read, rows};
 use reconstruct::{
-    AnalyticCurve, BezierStrip, CornerData, Corners, Criterion, Curve, Degree7Shape, EndCondition, EndField,
-    EndInvariants, Error, FrenetFrame, GeodesicStrip, HermiteArc, PlanarRibbon, Rectangle, RibbonLayout,
-    ScalarFunction, Sensor, SensorKind, Series, SpatialRibbon, Strip, Surface, TangentMethod, ThirdDerivative,
-    Triangle, TwoCurveSurface, Violation, WorldFields, barycentric_gradients, boundary_geodesic_curvature,
-    check_rectangle, crossing_residual, degree7_boundaries, geodesic_curvature, quintic_end_invariants,
-    quintic_weights,
+    AnalyticCurve, BezierStrip, CornerData, Corners, Criterion, Curve, Degree7Shape, EndCondition,
+    EndField, EndInvariants, Error, FrenetFrame, GeodesicStrip, HermiteArc, PlanarRibbon,
+    Rectangle, RibbonLayout, ScalarFunction, Sensor, SensorKind, Series, SpatialRibbon, Strip,
+    Surface, TangentMethod, ThirdDerivative, Triangle, TwoCurveSurface, Violation, WorldFields,
+    barycentric_gradients, boundary_geodesic_curvature, check_rectangle, crossing_residual,
+    degree7_boundaries, geodesic_curvature, quintic_end_invariants, quintic_weights,
 };
 use serde_json::{Map, Value, json};
 
@@ -24,7 +24,8 @@ fn fixtures_geodesic_and_reconstruction_surfaces() {
     let cases = mine.map(|case| {
         let text = |key: &str| case[key].as_str().unwrap_or_default();
         let tolerance = Tolerance::ComponentwiseMax(case["tol"].as_f64().unwrap_or(0.0));
-        Case::new(text("name"), text("kind"), &case["input"]).expecting(&case["expected"], tolerance)
+        Case::new(text("name"), text("kind"), &case["input"])
+            .expecting(&case["expected"], tolerance)
     });
     judge("reconstruction", cases, |case| {
         case.seen("note");
@@ -72,7 +73,11 @@ fn word<'a>(case: &Case<'a>, key: &str) -> &'a str {
 /// The parameters at which the file states points: part of what it expects.
 fn places(case: &Case<'_>, key: &str) -> Vec<Vec<f64>> {
     case.seen(key);
-    case.expected().get(key).or(case.get(key)).and_then(rows).expect("places of the points")
+    case.expected()
+        .get(key)
+        .or(case.get(key))
+        .and_then(rows)
+        .expect("places of the points")
 }
 
 /// Whether the words of the file mean this error.
@@ -110,9 +115,17 @@ fn end_condition(case: &Case<'_>) -> EndCondition {
 }
 
 fn planar_ribbon(case: &Case<'_>) {
-    match PlanarRibbon::new(&case.numbers("s"), &case.numbers("alpha"), end_condition(case)) {
+    match PlanarRibbon::new(
+        &case.numbers("s"),
+        &case.numbers("alpha"),
+        end_condition(case),
+    ) {
         Ok(ribbon) => {
-            let points: Value = ribbon.points().iter().map(|p| json!(p.to_array())).collect();
+            let points: Value = ribbon
+                .points()
+                .iter()
+                .map(|p| json!(p.to_array()))
+                .collect();
             case.compare("points", points);
         }
         Err(error) => refuse(case, &error),
@@ -139,15 +152,24 @@ fn spatial_ribbon(case: &Case<'_>) {
 
 fn sensors_to_tangents(case: &Case<'_>) {
     let rows_read = case.rows("readings");
-    let kinds = word(case, "kind").chars().zip(&rows_read).map(|(kind, row)| match (kind, row.len()) {
-        ('a', 3) => SensorKind::Accelerometer,
-        ('m', 3) => SensorKind::Magnetometer,
-        ('m', 2) => SensorKind::MagnetometerTwoAxis,
-        other => panic!("sensor kind {other:?}"),
-    });
-    let readings: Vec<DVec3> =
-        rows_read.iter().map(|r| DVec3::new(r[0], r[1], r.get(2).copied().unwrap_or(0.0))).collect();
-    let sensors = case.numbers("s").into_iter().zip(kinds).map(|(s, kind)| Sensor::new(s, kind));
+    let kinds = word(case, "kind")
+        .chars()
+        .zip(&rows_read)
+        .map(|(kind, row)| match (kind, row.len()) {
+            ('a', 3) => SensorKind::Accelerometer,
+            ('m', 3) => SensorKind::Magnetometer,
+            ('m', 2) => SensorKind::MagnetometerTwoAxis,
+            other => panic!("sensor kind {other:?}"),
+        });
+    let readings: Vec<DVec3> = rows_read
+        .iter()
+        .map(|r| DVec3::new(r[0], r[1], r.get(2).copied().unwrap_or(0.0)))
+        .collect();
+    let sensors = case
+        .numbers("s")
+        .into_iter()
+        .zip(kinds)
+        .map(|(s, kind)| Sensor::new(s, kind));
     let found = WorldFields::new(point(case, "up"), point(case, "magnetic"))
         .and_then(|world| RibbonLayout::new(sensors, world))
         .and_then(|layout| layout.tangents(&readings));
@@ -156,8 +178,13 @@ fn sensors_to_tangents(case: &Case<'_>) {
             case.compare("tangents", lists(tangents.values().iter().copied()));
             case.seen("true_tangents");
             if let Some(truth) = case.expected().get("true_tangents").and_then(rows) {
-                let pairs = tangents.values().iter().zip(truth.iter().map(|row| vector(row)));
-                let largest = pairs.map(|(a, b)| a.cross(b).length().atan2(a.dot(b))).fold(0.0, f64::max);
+                let pairs = tangents
+                    .values()
+                    .iter()
+                    .zip(truth.iter().map(|row| vector(row)));
+                let largest = pairs
+                    .map(|(a, b)| a.cross(b).length().atan2(a.dot(b)))
+                    .fold(0.0, f64::max);
                 case.compare("max_angle_error", largest);
             }
         }
@@ -293,7 +320,9 @@ impl Parser {
             }
             "u" | "t" => Formula::Parameter,
             "pi" => Formula::Number(core::f64::consts::PI),
-            name if name.chars().all(char::is_alphabetic) => Formula::Call(name.to_owned(), Box::new(self.power())),
+            name if name.chars().all(char::is_alphabetic) => {
+                Formula::Call(name.to_owned(), Box::new(self.power()))
+            }
             number => Formula::Number(number.parse().unwrap_or_else(|_| panic!("number {number}"))),
         }
     }
@@ -311,29 +340,46 @@ fn formula(case: &Case<'_>, key: &str) -> ScalarFunction {
 /// The strip of the curve with these coordinate formulas whose vector across has a positive z component.
 fn upward_strip(case: &Case<'_>, key: &str) -> GeodesicStrip {
     let text = word(case, key).trim();
-    let inner = text.strip_prefix('(').and_then(|t| t.strip_suffix(')')).expect("coordinates in parentheses");
+    let inner = text
+        .strip_prefix('(')
+        .and_then(|t| t.strip_suffix(')'))
+        .expect("coordinates in parentheses");
     let parts: Vec<Formula> = inner.split(',').map(Formula::read).collect();
     let parts: [Formula; 3] = parts.try_into().expect("three coordinates");
     let curve = AnalyticCurve::new(move |u| from_fn(|k| parts[k].value(u)));
     let strip = GeodesicStrip::new(curve).expect("a curve with curvature");
-    if strip.sample(0.5).across[0].z < 0.0 { strip.flipped() } else { strip }
+    if strip.sample(0.5).across[0].z < 0.0 {
+        strip.flipped()
+    } else {
+        strip
+    }
 }
 
 fn two_curve_surface(case: &Case<'_>) {
-    assert!(word(case, "binormals").contains("positive z"), "binormals are chosen otherwise");
+    assert!(
+        word(case, "binormals").contains("positive z"),
+        "binormals are chosen otherwise"
+    );
     let field = |i: usize| EndField::Polar {
         angle: formula(case, &format!("alpha{i}")),
         length: formula(case, &format!("lambda{i}")),
     };
-    let surface = TwoCurveSurface::from_oriented([upward_strip(case, "f0"), upward_strip(case, "f1")])
-        .with_fields([field(0), field(1)]);
+    let surface =
+        TwoCurveSurface::from_oriented([upward_strip(case, "f0"), upward_strip(case, "f1")])
+            .with_fields([field(0), field(1)]);
     let uv = places(case, "uv");
-    case.compare("points", lists(uv.iter().map(|p| surface.point(p[0], p[1]))));
+    case.compare(
+        "points",
+        lists(uv.iter().map(|p| surface.point(p[0], p[1]))),
+    );
     let curvature = |u: f64, v: f64| {
         let at = surface.partials(u, v);
         geodesic_curvature(at.du, at.duu, at.du.cross(at.dv)).abs()
     };
-    let worst = uv.iter().map(|p| curvature(p[0], 0.0).max(curvature(p[0], 1.0))).fold(0.0, f64::max);
+    let worst = uv
+        .iter()
+        .map(|p| curvature(p[0], 0.0).max(curvature(p[0], 1.0)))
+        .fold(0.0, f64::max);
     case.compare("geodesic_curvature_of_both_curves", worst);
 }
 
@@ -361,15 +407,25 @@ fn crossing_identity(case: &Case<'_>) {
     };
     let (normal, first, second) = (point(case, "N"), frame(1), frame(2));
     case.compare("residual", crossing_residual(normal, &first, &second));
-    let flipped = FrenetFrame { torsion: -second.torsion, ..second };
-    case.compare("residual_if_tau2_sign_flipped", crossing_residual(normal, &first, &flipped));
+    let flipped = FrenetFrame {
+        torsion: -second.torsion,
+        ..second
+    };
+    case.compare(
+        "residual_if_tau2_sign_flipped",
+        crossing_residual(normal, &first, &flipped),
+    );
 }
 
 /// Geodesics of the unit cylinder or sphere between pairs of corners.
 fn analytic_strips<const N: usize>(case: &Case<'_>, pairs: [[usize; 2]; N]) -> [GeodesicStrip; N] {
     let kind = word(case, "curves");
     let keys = ["corners_theta_z", "corners", "vertices"];
-    let corners = keys.into_iter().find_map(|key| case.get(key)).and_then(rows).expect("corners");
+    let corners = keys
+        .into_iter()
+        .find_map(|key| case.get(key))
+        .and_then(rows)
+        .expect("corners");
     pairs.map(|[a, b]| {
         let (a, b) = (corners[a].clone(), corners[b].clone());
         let strip = if kind.contains("cylinder") {
@@ -379,7 +435,10 @@ fn analytic_strips<const N: usize>(case: &Case<'_>, pairs: [[usize; 2]; N]) -> [
                 [cos, sin, z]
             }))
         } else {
-            assert!(kind.contains("sphere") || kind.contains("great"), "curves {kind}");
+            assert!(
+                kind.contains("sphere") || kind.contains("great"),
+                "curves {kind}"
+            );
             let (a, b) = (vector(&a).normalize(), vector(&b).normalize());
             let across = (b - a * a.dot(b)).normalize();
             let angle = a.cross(b).length().atan2(a.dot(b));
@@ -397,17 +456,27 @@ const RECTANGLE: [[usize; 2]; 4] = [[0, 1], [0, 2], [2, 3], [1, 3]];
 const NAMES: [&str; 4] = ["00", "10", "01", "11"];
 
 fn bezier_strips(case: &Case<'_>, key: &str) -> [BezierStrip; 4] {
-    let nets = case.get(key).and_then(Value::as_array).expect("control points");
+    let nets = case
+        .get(key)
+        .and_then(Value::as_array)
+        .expect("control points");
     let strip = |net: &Value| {
-        let points: Vec<DVec3> = rows(net).expect("points").iter().map(|row| vector(row)).collect();
-        BezierStrip::new(BezierCurve::polynomial(&points).expect("finite points")).expect("a curve with curvature")
+        let points: Vec<DVec3> = rows(net)
+            .expect("points")
+            .iter()
+            .map(|row| vector(row))
+            .collect();
+        BezierStrip::new(BezierCurve::polynomial(&points).expect("finite points"))
+            .expect("a curve with curvature")
     };
     let strips: Vec<BezierStrip> = nets.iter().map(strip).collect();
     strips.try_into().expect("four curves")
 }
 
 fn check(case: &Case<'_>) {
-    let Tolerance::ComponentwiseMax(tolerance) = case.tolerance() else { panic!("tolerance") };
+    let Tolerance::ComponentwiseMax(tolerance) = case.tolerance() else {
+        panic!("tolerance")
+    };
     let report = if case.get("control_points").is_some() {
         check_rectangle(&bezier_strips(case, "control_points"), tolerance)
     } else {
@@ -416,18 +485,31 @@ fn check(case: &Case<'_>) {
     case.compare("reversals", report.reversals);
     let entry = |violation: &Violation| match violation {
         Violation::C2 { reversals } => json!(["C2", reversals]),
-        other => json!([other.name(), other.corner().map(|corner| corner.to_string())]),
+        other => json!([
+            other.name(),
+            other.corner().map(|corner| corner.to_string())
+        ]),
     };
-    case.compare("errors", report.violations.iter().map(entry).collect::<Value>());
+    case.compare(
+        "errors",
+        report.violations.iter().map(entry).collect::<Value>(),
+    );
 }
 
 fn coons_rectangle(case: &Case<'_>) {
     let rectangle = Rectangle::new(analytic_strips(case, RECTANGLE)).expect("the conditions hold");
     let twists = case.rows("twist_components");
-    let patch = rectangle.patch(from_fn(|k| [twists[k][0], twists[k][1]])).expect("a regular boundary");
-    case.compare("points", lists(places(case, "uv").iter().map(|p| patch.point(p[0], p[1]))));
+    let patch = rectangle
+        .patch(from_fn(|k| [twists[k][0], twists[k][1]]))
+        .expect("a regular boundary");
+    case.compare(
+        "points",
+        lists(places(case, "uv").iter().map(|p| patch.point(p[0], p[1]))),
+    );
     let normals = rectangle.twist_normals();
-    let named: Map<String, Value> = (0..4).map(|k| (NAMES[k].to_owned(), json!(normals[k]))).collect();
+    let named: Map<String, Value> = (0..4)
+        .map(|k| (NAMES[k].to_owned(), json!(normals[k])))
+        .collect();
     case.compare("corner_twist_normal_component", named);
     case.compare("dirichlet", patch.energy(Criterion::Dirichlet));
     case.compare("thinplate", patch.energy(Criterion::ThinPlate));
@@ -458,13 +540,18 @@ fn coons_optimise(case: &Case<'_>) {
     case.compare("energy", smoothed.energy);
     case.compare("energy_at_zero", smoothed.energy_at_zero);
     case.compare("normal_matrix_eigenvalues", json!(smoothed.eigenvalues));
-    case.compare("point_centre", json!(smoothed.patch.point(0.5, 0.5).to_array()));
+    case.compare(
+        "point_centre",
+        json!(smoothed.patch.point(0.5, 0.5).to_array()),
+    );
     geodesic_boundaries(case, &smoothed.patch);
 }
 
 fn corner_data(case: &Case<'_>) -> Corners {
     let get = |key: &str, name: &str| {
-        case.get(key).and_then(|map| map.get(name)).unwrap_or_else(|| panic!("{key} {name}"))
+        case.get(key)
+            .and_then(|map| map.get(name))
+            .unwrap_or_else(|| panic!("{key} {name}"))
     };
     let sign = case.number("principal_normal_sign");
     let at = |i: usize, j: usize| {
@@ -489,23 +576,48 @@ fn positions(control: &[MassPoint<DVec3>]) -> Value {
 fn degree7(case: &Case<'_>) {
     let corners = corner_data(case);
     let free = case.numbers("third_derivative_tangential_and_normal");
-    assert!(word(case, "torsion_rule").contains("equal split"), "another split of the torsions");
+    assert!(
+        word(case, "torsion_rule").contains("equal split"),
+        "another split of the torsions"
+    );
     let shape = Degree7Shape {
         speed: case.get("speed").and_then(number),
         speed_derivative: case.number("speed_derivative"),
         third_derivative: ThirdDerivative::Given([free[0], free[1]]),
     };
     let curves = degree7_boundaries(&corners, &shape).expect("valid corner data");
-    case.compare("control_points", curves.iter().map(|curve| positions(curve.control())).collect::<Value>());
-    let torsion = |k: usize| (NAMES[k].to_owned(), json!(corners[k % 2][k / 2].torsions()[0]));
+    case.compare(
+        "control_points",
+        curves
+            .iter()
+            .map(|curve| positions(curve.control()))
+            .collect::<Value>(),
+    );
+    let torsion = |k: usize| {
+        (
+            NAMES[k].to_owned(),
+            json!(corners[k % 2][k / 2].torsions()[0]),
+        )
+    };
     case.compare("torsions", (0..4).map(torsion).collect::<Map<_, _>>());
-    let report = check_rectangle(&curves.map(|curve| BezierStrip::new(curve).expect("curvature")), 1e-8);
-    case.compare("check_errors", report.violations.iter().map(|v| json!([v.name()])).collect::<Value>());
+    let report = check_rectangle(
+        &curves.map(|curve| BezierStrip::new(curve).expect("curvature")),
+        1e-8,
+    );
+    case.compare(
+        "check_errors",
+        report
+            .violations
+            .iter()
+            .map(|v| json!([v.name()]))
+            .collect::<Value>(),
+    );
     case.compare("reversals", report.reversals);
 }
 
 fn bezier_patch(case: &Case<'_>) {
-    let rectangle = Rectangle::new(bezier_strips(case, "boundary_control_points")).expect("the conditions hold");
+    let rectangle = Rectangle::new(bezier_strips(case, "boundary_control_points"))
+        .expect("the conditions hold");
     // The reference is the free minimum, whether or not it is regular at the boundary.
     let smoothed = rectangle.least_energy(criterion(case)).expect("a minimum");
     let bezier = smoothed.patch.to_bezier().expect("finite control points");
@@ -513,13 +625,18 @@ fn bezier_patch(case: &Case<'_>) {
     case.compare("twist_components", json!(smoothed.patch.twists()));
     case.compare("energy", smoothed.energy);
     case.compare("energy_at_zero", smoothed.energy_at_zero);
-    case.compare("control_net", bezier.rows().map(positions).collect::<Value>());
+    case.compare(
+        "control_net",
+        bezier.rows().map(positions).collect::<Value>(),
+    );
     geodesic_boundaries(case, &bezier);
     case.seen("xy_hermite_bernstein_note");
 }
 
 fn six_points(case: &Case<'_>) -> [DVec3; 6] {
-    vectors(case, "control_points").try_into().expect("six points")
+    vectors(case, "control_points")
+        .try_into()
+        .expect("six points")
 }
 
 fn rational5_weights(case: &Case<'_>) {
@@ -534,12 +651,19 @@ fn rational5_weights(case: &Case<'_>) {
 }
 
 fn rational_end(case: &Case<'_>) {
-    let (points, weights) = (six_points(case), case.numbers("weights").try_into().expect("six weights"));
+    let (points, weights) = (
+        six_points(case),
+        case.numbers("weights").try_into().expect("six weights"),
+    );
     let ends = match quintic_end_invariants(&points, &weights) {
         Ok(ends) => ends,
         Err(error) => return refuse(case, &error),
     };
-    let control = points.iter().zip(weights).map(|(p, w)| MassPoint::point(*p, w)).collect();
+    let control = points
+        .iter()
+        .zip(weights)
+        .map(|(p, w)| MassPoint::point(*p, w))
+        .collect();
     let curve = BezierCurve::new(control).expect("a curve");
     for (i, end) in ends.iter().enumerate() {
         case.compare(&format!("k{i}"), end.curvature);
@@ -554,19 +678,40 @@ fn rational_end(case: &Case<'_>) {
 }
 
 fn triangle_patch(case: &Case<'_>) {
-    let triangle = Triangle::new(analytic_strips(case, [[1, 2], [2, 0], [0, 1]])).expect("the conditions hold");
+    let triangle = Triangle::new(analytic_strips(case, [[1, 2], [2, 0], [0, 1]]))
+        .expect("the conditions hold");
     let twists = case.rows("twist_components");
-    let patch = triangle.patch(from_fn(|k| [twists[k][0], twists[k][1]])).expect("a regular boundary");
-    case.compare("points", lists(places(case, "bary").iter().map(|l| patch.at([l[0], l[1], l[2]]))));
+    let patch = triangle
+        .patch(from_fn(|k| [twists[k][0], twists[k][1]]))
+        .expect("a regular boundary");
+    case.compare(
+        "points",
+        lists(
+            places(case, "bary")
+                .iter()
+                .map(|l| patch.at([l[0], l[1], l[2]])),
+        ),
+    );
     case.compare("corner_angles", json!(triangle.interior_angles()));
     case.compare("total_curvature", triangle.total_curvature());
     case.compare("corner_normal_twists", json!(triangle.twist_normals()));
-    case.require(patch.boundary_geodesic_curvature(40) < 1e-8, "a side is no geodesic");
+    case.require(
+        patch.boundary_geodesic_curvature(40) < 1e-8,
+        "a side is no geodesic",
+    );
 }
 
 fn gradients(case: &Case<'_>) {
-    let corners: Vec<DVec2> = case.rows("triangle").iter().map(|p| DVec2::from_slice(p)).collect();
-    let gradients = barycentric_gradients(corners.try_into().expect("three corners")).expect("a proper triangle");
+    let corners: Vec<DVec2> = case
+        .rows("triangle")
+        .iter()
+        .map(|p| DVec2::from_slice(p))
+        .collect();
+    let gradients = barycentric_gradients(corners.try_into().expect("three corners"))
+        .expect("a proper triangle");
     case.compare("gradients", json!(gradients.map(|g| g.to_array())));
-    case.compare("gram", json!(gradients.map(|a| gradients.map(|b| a.dot(b)))));
+    case.compare(
+        "gram",
+        json!(gradients.map(|a| gradients.map(|b| a.dot(b)))),
+    );
 }

@@ -44,26 +44,48 @@ impl BezierStrip {
     pub fn new(curve: BezierCurve<DVec3>) -> Result<Self, Error> {
         let control = curve.control();
         if control.len() < 2 {
-            return Err(Error::TooFew { what: "control points", needed: 2, got: control.len() });
+            return Err(Error::TooFew {
+                what: "control points",
+                needed: 2,
+                got: control.len(),
+            });
         }
         if let Some(h) = control.iter().find(|h| !(h.weight > 0.0)) {
-            return Err(Error::OutOfRange { what: "weight", value: h.weight, range: [0.0, f64::INFINITY] });
+            return Err(Error::OutOfRange {
+                what: "weight",
+                value: h.weight,
+                range: [0.0, f64::INFINITY],
+            });
         }
         let first = control[0].weight;
         let polynomial = control.iter().all(|h| h.weight == first);
         let (position, weight): (Vec<DVec3>, Vec<f64>) = if polynomial {
-            (control.iter().map(|h| h.weighted / first).collect(), vec![1.0])
+            (
+                control.iter().map(|h| h.weighted / first).collect(),
+                vec![1.0],
+            )
         } else {
             control.iter().map(|h| (h.weighted, h.weight)).unzip()
         };
-        let along = if polynomial { bernstein::derivative(&position) } else { moment(control) };
+        let along = if polynomial {
+            bernstein::derivative(&position)
+        } else {
+            moment(control)
+        };
         let across = wronskian(&along);
         let size = magnitude(&along);
         if magnitude(&across) <= VANISHING * size * size {
             return Err(Error::Inflection { side: 0, t: 0.0 });
         }
         let (across, divided) = without_common_factor(across);
-        Ok(Self { curve, position, weight, along, across, divided })
+        Ok(Self {
+            curve,
+            position,
+            weight,
+            along,
+            across,
+            divided,
+        })
     }
 
     /// The curve.
@@ -76,7 +98,10 @@ impl BezierStrip {
 impl Strip for BezierStrip {
     fn sample(&self, t: f64) -> StripSample {
         let mut position = VectorSeries::<4>(taylor(&self.position, t));
-        let (mut along, mut across) = (VectorSeries::<3>(taylor(&self.along, t)), VectorSeries(taylor(&self.across, t)));
+        let (mut along, mut across) = (
+            VectorSeries::<3>(taylor(&self.along, t)),
+            VectorSeries(taylor(&self.across, t)),
+        );
         if self.weight.len() > 1 {
             let reciprocal = Series::<4>::constant(1.0) / Series(taylor(&self.weight, t));
             position = position.scaled(&reciprocal);
@@ -103,7 +128,9 @@ impl Strip for BezierStrip {
 /// the first and of the last `n` coefficients.
 fn moment(control: &[MassPoint<DVec3>]) -> Vec<DVec3> {
     let n = control.len() - 1;
-    bernstein::product_with(&control[..n], &control[1..], |a, b| (b.weighted * a.weight - a.weighted * b.weight) * n as f64)
+    bernstein::product_with(&control[..n], &control[1..], |a, b| {
+        (b.weighted * a.weight - a.weighted * b.weight) * n as f64
+    })
 }
 
 /// `Q x Q' = n (Q0 x Q1)`, in the same notation: degree `2 n - 2` without a cancelled leading term.
@@ -113,20 +140,31 @@ fn wronskian(q: &[DVec3]) -> Vec<DVec3> {
 }
 
 fn magnitude<V: VectorSpace>(coefficients: &[V]) -> f64 {
-    coefficients.iter().fold(0.0, |largest, c| largest.max(c.magnitude()))
+    coefficients
+        .iter()
+        .fold(0.0, |largest, c| largest.max(c.magnitude()))
 }
 
 /// The polynomial divided by what its coordinates have in common: a constant direction, or zeros in `[0, 1]`.
 /// Says whether anything was divided out.
 fn without_common_factor(mut across: Vec<DVec3>) -> (Vec<DVec3>, bool) {
-    let largest = across.iter().copied().fold(DVec3::ZERO, |a, b| if b.length() > a.length() { b } else { a });
+    let largest =
+        across.iter().copied().fold(
+            DVec3::ZERO,
+            |a, b| if b.length() > a.length() { b } else { a },
+        );
     let direction = largest.normalize_or_zero();
-    if across.iter().all(|b| b.cross(direction).length() <= VANISHING * largest.length()) {
+    if across
+        .iter()
+        .all(|b| b.cross(direction).length() <= VANISHING * largest.length())
+    {
         return (vec![direction], true);
     }
     let mut divided = false;
     while across.len() > 1 {
-        let Some(root) = common_zero(&across) else { break };
+        let Some(root) = common_zero(&across) else {
+            break;
+        };
         across = divide_by_root(&across, root);
         divided = true;
     }
@@ -144,7 +182,8 @@ fn common_zero(polynomial: &[DVec3]) -> Option<f64> {
     let probe = |i: usize| i as f64 / PROBES as f64;
     let lengths: Vec<f64> = (0..=PROBES).map(|i| at(probe(i)).length()).collect();
     for i in 0..=PROBES {
-        let lowest = (i == 0 || lengths[i] <= lengths[i - 1]) && (i == PROBES || lengths[i] <= lengths[i + 1]);
+        let lowest = (i == 0 || lengths[i] <= lengths[i - 1])
+            && (i == PROBES || lengths[i] <= lengths[i + 1]);
         if !lowest || lengths[i] > 0.3 * size {
             continue;
         }
@@ -174,12 +213,20 @@ fn divide_by_root(polynomial: &[DVec3], root: f64) -> Vec<DVec3> {
     // b_i = -root (n - i)/n c_i + (1 - root) i/n c_(i-1).
     if root >= 0.5 {
         for i in 0..n {
-            let before = if i == 0 { DVec3::ZERO } else { quotient[i - 1] * ((1.0 - root) * i as f64 / degree) };
+            let before = if i == 0 {
+                DVec3::ZERO
+            } else {
+                quotient[i - 1] * ((1.0 - root) * i as f64 / degree)
+            };
             quotient[i] = (polynomial[i] - before) * (degree / ((n - i) as f64 * -root));
         }
     } else {
         for i in (1..=n).rev() {
-            let after = if i == n { DVec3::ZERO } else { quotient[i] * (-root * (n - i) as f64 / degree) };
+            let after = if i == n {
+                DVec3::ZERO
+            } else {
+                quotient[i] * (-root * (n - i) as f64 / degree)
+            };
             quotient[i - 1] = (polynomial[i] - after) * (degree / (i as f64 * (1.0 - root)));
         }
     }
@@ -203,27 +250,49 @@ impl CoonsPatch<BezierStrip> {
     pub fn to_bezier(&self) -> Result<BezierPatch<DVec3>, Error> {
         let (by_u, by_v) = (self.columns(0, 2), self.columns(1, 3));
         let blends = |denominator: &[f64]| -> [Vec<f64>; 4] {
-            from_fn(|k| bernstein::product(denominator, &to_bernstein(from_fn(|i| f64::from(u8::from(i == k))))))
+            from_fn(|k| {
+                bernstein::product(
+                    denominator,
+                    &to_bernstein(from_fn(|i| f64::from(u8::from(i == k)))),
+                )
+            })
         };
         let (blend_u, blend_v) = (blends(&by_u.denominator), blends(&by_v.denominator));
         let degree = |columns: &Columns, blend: &[Vec<f64>; 4]| {
-            columns.numerators.iter().map(Vec::len).chain(blend.iter().map(Vec::len)).max().unwrap_or(1) - 1
+            columns
+                .numerators
+                .iter()
+                .map(Vec::len)
+                .chain(blend.iter().map(Vec::len))
+                .max()
+                .unwrap_or(1)
+                - 1
         };
         let degrees = [degree(&by_u, &blend_u), degree(&by_v, &blend_v)];
         let blend_u = blend_u.map(|b| elevated(&b, degrees[0]));
         let blend_v = blend_v.map(|b| elevated(&b, degrees[1]));
-        let weights = [elevated(&by_u.denominator, degrees[0]), elevated(&by_v.denominator, degrees[1])];
+        let weights = [
+            elevated(&by_u.denominator, degrees[0]),
+            elevated(&by_v.denominator, degrees[1]),
+        ];
         let columns_u = by_u.numerators.map(|x| elevated(&x, degrees[0]));
         let columns_v = by_v.numerators.map(|y| elevated(&y, degrees[1]));
         let mut control = Vec::with_capacity((degrees[0] + 1) * (degrees[1] + 1));
         for i in 0..=degrees[0] {
             // The part of R_0 that blends to the corner data at this row.
-            let corners: [DVec3; 4] = from_fn(|l| (0..4).map(|k| self.grid()[k][l] * blend_u[k][i]).sum());
+            let corners: [DVec3; 4] =
+                from_fn(|l| (0..4).map(|k| self.grid()[k][l] * blend_u[k][i]).sum());
             for j in 0..=degrees[1] {
                 let weighted: DVec3 = (0..4)
-                    .map(|k| (columns_u[k][i] - corners[k]) * blend_v[k][j] + columns_v[k][j] * blend_u[k][i])
+                    .map(|k| {
+                        (columns_u[k][i] - corners[k]) * blend_v[k][j]
+                            + columns_v[k][j] * blend_u[k][i]
+                    })
                     .sum();
-                control.push(MassPoint::from_homogeneous(weights[0][i] * weights[1][j], weighted));
+                control.push(MassPoint::from_homogeneous(
+                    weights[0][i] * weights[1][j],
+                    weighted,
+                ));
             }
         }
         Ok(BezierPatch::new(degrees, control)?)
@@ -242,7 +311,10 @@ impl CoonsPatch<BezierStrip> {
         if proportional(&first.weight, &second.weight) {
             let factor = first.weight[0] / second.weight[0];
             let scaled = |x: Vec<DVec3>| x.into_iter().map(|c| c * factor).collect();
-            return Columns { numerators: [r1, t1, scaled(t3), scaled(r3)], denominator: first.weight.clone() };
+            return Columns {
+                numerators: [r1, t1, scaled(t3), scaled(r3)],
+                denominator: first.weight.clone(),
+            };
         }
         let times = |weight: &[f64], x: &[DVec3]| bernstein::product(weight, x);
         Columns {
@@ -259,7 +331,10 @@ impl CoonsPatch<BezierStrip> {
 
 /// Whether two lists of positive weights describe the same denominator up to a factor.
 fn proportional(a: &[f64], b: &[f64]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(x, y)| (x * b[0] - y * a[0]).abs() <= 4.0 * f64::EPSILON * x * b[0])
+    a.len() == b.len()
+        && a.iter()
+            .zip(b)
+            .all(|(x, y)| (x * b[0] - y * a[0]).abs() <= 4.0 * f64::EPSILON * x * b[0])
 }
 
 fn elevated<V: VectorSpace>(coefficients: &[V], degree: usize) -> Vec<V> {
@@ -268,7 +343,11 @@ fn elevated<V: VectorSpace>(coefficients: &[V], degree: usize) -> Vec<V> {
 
 fn sum(a: Vec<DVec3>, b: Vec<DVec3>) -> Vec<DVec3> {
     let degree = a.len().max(b.len()) - 1;
-    elevated(&a, degree).into_iter().zip(elevated(&b, degree)).map(|(x, y)| x + y).collect()
+    elevated(&a, degree)
+        .into_iter()
+        .zip(elevated(&b, degree))
+        .map(|(x, y)| x + y)
+        .collect()
 }
 
 #[cfg(test)]
@@ -277,7 +356,9 @@ mod tests {
 
     #[test]
     fn quotients_by_roots() {
-        let factor: Vec<DVec3> = (0..5).map(|i| DVec3::new(1.0 + f64::from(i), (f64::from(i)).cos(), -2.0)).collect();
+        let factor: Vec<DVec3> = (0..5)
+            .map(|i| DVec3::new(1.0 + f64::from(i), (f64::from(i)).cos(), -2.0))
+            .collect();
         for root in [0.0, 0.2, 0.5, 0.77, 1.0] {
             let product = bernstein::product(&[-root, 1.0 - root], &factor);
             for (a, b) in divide_by_root(&product, root).iter().zip(&factor) {
@@ -308,11 +389,19 @@ mod tests {
     #[test]
     fn lines_and_bad_weights_are_refused() {
         let line = BezierCurve::polynomial(&[DVec3::ZERO, DVec3::X, DVec3::X * 3.0]).unwrap();
-        assert!(matches!(BezierStrip::new(line), Err(Error::Inflection { .. })));
-        let control = [(DVec3::ZERO, 1.0), (DVec3::Y, -1.0), (DVec3::X, 1.0)].map(|(p, w)| MassPoint::point(p, w));
+        assert!(matches!(
+            BezierStrip::new(line),
+            Err(Error::Inflection { .. })
+        ));
+        let control = [(DVec3::ZERO, 1.0), (DVec3::Y, -1.0), (DVec3::X, 1.0)]
+            .map(|(p, w)| MassPoint::point(p, w));
         let negative = BezierCurve::new(control.to_vec()).unwrap();
-        assert!(matches!(BezierStrip::new(negative), Err(Error::OutOfRange { .. })));
-        let plane = BezierCurve::polynomial(&[DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0)]).unwrap();
+        assert!(matches!(
+            BezierStrip::new(negative),
+            Err(Error::OutOfRange { .. })
+        ));
+        let plane =
+            BezierCurve::polynomial(&[DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0)]).unwrap();
         assert_eq!(BezierStrip::new(plane).unwrap().across.len(), 1);
     }
 }

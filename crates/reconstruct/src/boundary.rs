@@ -39,19 +39,38 @@ impl CornerData {
     /// [`Error::CornerData`] (with corner `[0, 0]`) for numbers that are not finite, zero vectors, tangents out of
     /// the tangent plane or parallel, `(tangent_u x tangent_v)` opposite to the normal, and for a curvature of zero,
     /// which leaves the osculating plane open.
-    pub fn new(point: DVec3, normal: DVec3, tangents: [DVec3; 2], curvatures: [f64; 2]) -> Result<Self, Error> {
-        let refuse = |what, value| Err(Error::CornerData { corner: [0, 0], what, value });
-        let finite = point.is_finite() && normal.is_finite() && tangents.iter().all(|t| t.is_finite());
+    pub fn new(
+        point: DVec3,
+        normal: DVec3,
+        tangents: [DVec3; 2],
+        curvatures: [f64; 2],
+    ) -> Result<Self, Error> {
+        let refuse = |what, value| {
+            Err(Error::CornerData {
+                corner: [0, 0],
+                what,
+                value,
+            })
+        };
+        let finite =
+            point.is_finite() && normal.is_finite() && tangents.iter().all(|t| t.is_finite());
         if !finite || !curvatures.iter().all(|k| k.is_finite()) {
             return refuse("a number is not finite", f64::NAN);
         }
-        let Some(normal) = normal.try_normalize() else { return refuse("the normal is zero", 0.0) };
+        let Some(normal) = normal.try_normalize() else {
+            return refuse("the normal is zero", 0.0);
+        };
         let mut units = [DVec3::ZERO; 2];
         for (unit, tangent) in units.iter_mut().zip(tangents) {
-            let Some(direction) = tangent.try_normalize() else { return refuse("a tangent is zero", 0.0) };
+            let Some(direction) = tangent.try_normalize() else {
+                return refuse("a tangent is zero", 0.0);
+            };
             let slip = direction.dot(normal);
             if slip.abs() > ORTHOGONAL {
-                return refuse("a tangent leaves the tangent plane (cosine to the normal)", slip);
+                return refuse(
+                    "a tangent leaves the tangent plane (cosine to the normal)",
+                    slip,
+                );
             }
             *unit = (direction - normal * slip).normalize();
         }
@@ -65,13 +84,22 @@ impl CornerData {
         if curvatures.contains(&0.0) {
             return refuse("a boundary has no curvature", 0.0);
         }
-        Ok(Self { point, normal, tangents: units, curvatures, torsion_difference: 0.0 })
+        Ok(Self {
+            point,
+            normal,
+            tangents: units,
+            curvatures,
+            torsion_difference: 0.0,
+        })
     }
 
     /// The same corner with another split of the torsions: that of the boundary along `u` minus that along `v`.
     #[must_use]
     pub fn with_torsion_difference(self, difference: f64) -> Self {
-        Self { torsion_difference: difference, ..self }
+        Self {
+            torsion_difference: difference,
+            ..self
+        }
     }
 
     /// The point.
@@ -110,7 +138,10 @@ impl CornerData {
     #[must_use]
     pub fn torsions(&self) -> [f64; 2] {
         let half = 0.5 * self.torsion_sum();
-        [half + 0.5 * self.torsion_difference, half - 0.5 * self.torsion_difference]
+        [
+            half + 0.5 * self.torsion_difference,
+            half - 0.5 * self.torsion_difference,
+        ]
     }
 }
 
@@ -140,7 +171,11 @@ pub enum ThirdDerivative {
 
 impl Default for Degree7Shape {
     fn default() -> Self {
-        Self { speed: None, speed_derivative: 0.0, third_derivative: ThirdDerivative::LeastJerk }
+        Self {
+            speed: None,
+            speed_derivative: 0.0,
+            third_derivative: ThirdDerivative::LeastJerk,
+        }
     }
 }
 
@@ -165,26 +200,41 @@ fn curve_end(corner: &CornerData, along: usize) -> CurveEnd {
 }
 
 /// The ends of `r1(u)`, `r2(v)`, `r3(u)`, `r4(v)` in the corners, as `[corner i, corner j]` pairs with the axis.
-const SIDES: [(usize, [[usize; 2]; 2]); 4] =
-    [(0, [[0, 0], [1, 0]]), (1, [[0, 0], [0, 1]]), (0, [[0, 1], [1, 1]]), (1, [[1, 0], [1, 1]])];
+const SIDES: [(usize, [[usize; 2]; 2]); 4] = [
+    (0, [[0, 0], [1, 0]]),
+    (1, [[0, 0], [0, 1]]),
+    (0, [[0, 1], [1, 1]]),
+    (1, [[1, 0], [1, 1]]),
+];
 
 /// Four degree-7 Bézier boundaries `r1(u)`, `r2(v)`, `r3(u)`, `r4(v)` with the given corner data. They satisfy C1
 /// and C3; whether they satisfy C2, and bend as wanted between the corners, the check of the rectangle says.
 ///
 /// # Errors
 /// [`Error::CornerData`] for two corners at one point; [`Error::OutOfRange`] for a speed that is not positive.
-pub fn degree7_boundaries(corners: &Corners, shape: &Degree7Shape) -> Result<[BezierCurve<DVec3>; 4], Error> {
+pub fn degree7_boundaries(
+    corners: &Corners,
+    shape: &Degree7Shape,
+) -> Result<[BezierCurve<DVec3>; 4], Error> {
     if let Some(value) = shape.speed
         && !(value > 0.0 && value.is_finite())
     {
-        return Err(Error::OutOfRange { what: "speed", value, range: [0.0, f64::INFINITY] });
+        return Err(Error::OutOfRange {
+            what: "speed",
+            value,
+            range: [0.0, f64::INFINITY],
+        });
     }
     let mut curves = Vec::with_capacity(4);
     for (axis, [a, b]) in SIDES {
         let ends = [a, b].map(|[i, j]| curve_end(&corners[i][j], axis));
         let chord = ends[0].point.distance(ends[1].point);
         if !(chord > 0.0) {
-            return Err(Error::CornerData { corner: b, what: "two corners coincide (distance)", value: chord });
+            return Err(Error::CornerData {
+                corner: b,
+                what: "two corners coincide (distance)",
+                value: chord,
+            });
         }
         curves.push(BezierCurve::polynomial(&degree7(&ends, chord, shape))?);
     }
@@ -193,7 +243,11 @@ pub fn degree7_boundaries(corners: &Corners, shape: &Degree7Shape) -> Result<[Be
 
 fn four<T>(values: Vec<T>) -> Result<[T; 4], Error> {
     let got = values.len();
-    values.try_into().map_err(|_| Error::TooFew { what: "boundaries", needed: 4, got })
+    values.try_into().map_err(|_| Error::TooFew {
+        what: "boundaries",
+        needed: 4,
+        got,
+    })
 }
 
 /// The control points of one degree-7 curve.
@@ -219,7 +273,10 @@ fn degree7_control(ends: &[CurveEnd; 2], v: f64, a: f64, free: [[f64; 2]; 2]) ->
         [first / 7.0, second / 42.0, third / 210.0]
     };
     let [p0, p7] = [ends[0].point, ends[1].point];
-    let ([d1, d2, d3], [g1, g2, g3]) = (derivatives(&ends[0], free[0]), derivatives(&ends[1], free[1]));
+    let ([d1, d2, d3], [g1, g2, g3]) = (
+        derivatives(&ends[0], free[0]),
+        derivatives(&ends[1], free[1]),
+    );
     let b1 = p0 + d1;
     let b2 = b1 * 2.0 - p0 + d2;
     let b3 = b2 * 3.0 - b1 * 3.0 + p0 + d3;
@@ -232,7 +289,8 @@ fn degree7_control(ends: &[CurveEnd; 2], v: f64, a: f64, free: [[f64; 2]; 2]) ->
 /// The free components that minimise the integral of the squared derivative of this order. The curve is affine in
 /// them: one small linear system.
 fn least_energy(control: &impl Fn([[f64; 2]; 2]) -> [DVec3; 8], order: usize) -> [[f64; 2]; 2] {
-    let differentiated = |points: &[DVec3]| (0..order).fold(points.to_vec(), |p, _| bernstein::derivative(&p));
+    let differentiated =
+        |points: &[DVec3]| (0..order).fold(points.to_vec(), |p, _| bernstein::derivative(&p));
     let base = control([[0.0; 2]; 2]);
     let start = differentiated(&base);
     let basis: [Vec<DVec3>; 4] = from_fn(|k| {
@@ -244,7 +302,9 @@ fn least_energy(control: &impl Fn([[f64; 2]; 2]) -> [DVec3; 8], order: usize) ->
     let matrix = SMatrix::<f64, 4, 4>::from_fn(|k, l| integral_of_product(&basis[k], &basis[l]));
     let right = SVector::<f64, 4>::from_fn(|k, _| -integral_of_product(&start, &basis[k]));
     // Positive definite: the four directions are linearly independent polynomials.
-    let free = matrix.cholesky().map_or_else(SVector::zeros, |factors| factors.solve(&right));
+    let free = matrix
+        .cholesky()
+        .map_or_else(SVector::zeros, |factors| factors.solve(&right));
     [[free[0], free[1]], [free[2], free[3]]]
 }
 
@@ -270,7 +330,11 @@ const PLANAR: f64 = 1e-12;
 impl EndInvariants {
     /// The torsion, exactly zero where it is zero to rounding.
     fn settled_torsion(self) -> f64 {
-        if self.torsion.abs() <= PLANAR * self.curvature { 0.0 } else { self.torsion }
+        if self.torsion.abs() <= PLANAR * self.curvature {
+            0.0
+        } else {
+            self.torsion
+        }
     }
 }
 
@@ -281,29 +345,48 @@ impl EndInvariants {
 /// # Errors
 /// [`Error::NonFinite`], [`Error::OutOfRange`] for a weight that is not positive, [`Error::ZeroVector`] for
 /// coinciding end points, [`Error::Inflection`] for three collinear ones.
-pub fn quintic_end_invariants(points: &[DVec3; 6], weights: &[f64; 6]) -> Result<[EndInvariants; 2], Error> {
+pub fn quintic_end_invariants(
+    points: &[DVec3; 6],
+    weights: &[f64; 6],
+) -> Result<[EndInvariants; 2], Error> {
     if let Some(&value) = weights.iter().find(|w| !(w.is_finite() && **w > 0.0)) {
-        return Err(Error::OutOfRange { what: "weight", value, range: [0.0, f64::INFINITY] });
+        return Err(Error::OutOfRange {
+            what: "weight",
+            value,
+            range: [0.0, f64::INFINITY],
+        });
     }
     let mut reversed = (*points, *weights);
     reversed.0.reverse();
     reversed.1.reverse();
-    Ok([invariants_at_start(points, weights, 0)?, invariants_at_start(&reversed.0, &reversed.1, 1)?])
+    Ok([
+        invariants_at_start(points, weights, 0)?,
+        invariants_at_start(&reversed.0, &reversed.1, 1)?,
+    ])
 }
 
 fn invariants_at_start(p: &[DVec3; 6], w: &[f64; 6], end: usize) -> Result<EndInvariants, Error> {
     if let Some(index) = p.iter().position(|p| !p.is_finite()) {
-        return Err(Error::NonFinite { what: "control point", index });
+        return Err(Error::NonFinite {
+            what: "control point",
+            index,
+        });
     }
     let (first, second) = (p[1] - p[0], p[2] - p[0]);
     let a = first.length();
     if a == 0.0 {
-        return Err(Error::ZeroVector { what: "end tangent", index: end });
+        return Err(Error::ZeroVector {
+            what: "end tangent",
+            index: end,
+        });
     }
     let across = first.cross(second);
     let h = across.length() / a;
     if h <= f64::EPSILON * second.length() {
-        return Err(Error::Inflection { side: 0, t: end as f64 });
+        return Err(Error::Inflection {
+            side: 0,
+            t: end as f64,
+        });
     }
     let c = (p[3] - p[0]).dot(across.normalize());
     Ok(EndInvariants {
@@ -324,12 +407,24 @@ pub fn quintic_weights(points: &[DVec3; 6], wanted: [EndInvariants; 2]) -> Resul
     let mut logarithms = [[0.0; 2]; 2];
     for (end, (wanted, natural)) in wanted.into_iter().zip(natural).enumerate() {
         if !(wanted.curvature > 0.0 && wanted.curvature.is_finite()) {
-            return Err(Error::OutOfRange { what: "curvature", value: wanted.curvature, range: [0.0, f64::INFINITY] });
+            return Err(Error::OutOfRange {
+                what: "curvature",
+                value: wanted.curvature,
+                range: [0.0, f64::INFINITY],
+            });
         }
         let flat = natural.settled_torsion() == 0.0;
-        let ratio = if wanted.torsion == 0.0 && flat { 1.0 } else { wanted.torsion / natural.torsion };
+        let ratio = if wanted.torsion == 0.0 && flat {
+            1.0
+        } else {
+            wanted.torsion / natural.torsion
+        };
         if !(ratio > 0.0 && ratio.is_finite()) || (flat && wanted.torsion != 0.0) {
-            return Err(Error::TorsionSign { end, wanted: wanted.torsion, natural: natural.torsion });
+            return Err(Error::TorsionSign {
+                end,
+                wanted: wanted.torsion,
+                natural: natural.torsion,
+            });
         }
         logarithms[end] = [(wanted.curvature / natural.curvature).ln(), ratio.ln()];
     }
@@ -345,7 +440,14 @@ pub fn quintic_weights(points: &[DVec3; 6], wanted: [EndInvariants; 2]) -> Resul
 
 /// Lengths of the end legs `p0 p1` and of the next legs along the tangent, in parts of the chord, that are tried
 /// for a rational quintic; the first is the plain fifth.
-const LEGS: [[f64; 2]; 6] = [[0.2, 0.2], [0.2, 0.1], [0.2, 0.3], [0.15, 0.3], [0.3, 0.1], [0.1, 0.2]];
+const LEGS: [[f64; 2]; 6] = [
+    [0.2, 0.2],
+    [0.2, 0.1],
+    [0.2, 0.3],
+    [0.15, 0.3],
+    [0.3, 0.1],
+    [0.1, 0.2],
+];
 
 /// Four rational quintic boundaries with the given corner data: points, tangent planes, osculating planes and
 /// curvatures at the corners. Control points are laid out in the osculating planes so that the curvatures are met
@@ -355,7 +457,11 @@ const LEGS: [[f64; 2]; 6] = [[0.2, 0.2], [0.2, 0.1], [0.2, 0.3], [0.15, 0.3], [0
 /// [`Error::CornerData`] for two corners at one point; [`Error::TorsionSign`] when at some corner neither any
 /// split nor any of the layouts tried gives torsions of the right sum and signs.
 pub fn rational_quintic_boundaries(corners: &Corners) -> Result<[BezierCurve<DVec3>; 4], Error> {
-    let mut refusal = Error::TorsionSign { end: 0, wanted: 0.0, natural: 0.0 };
+    let mut refusal = Error::TorsionSign {
+        end: 0,
+        wanted: 0.0,
+        natural: 0.0,
+    };
     let mut best: Option<(f64, [BezierCurve<DVec3>; 4])> = None;
     for legs in LEGS {
         match quintic_layout(corners, legs) {
@@ -372,14 +478,21 @@ pub fn rational_quintic_boundaries(corners: &Corners) -> Result<[BezierCurve<DVe
 }
 
 /// The curves of one layout, with the largest logarithm of a weight.
-fn quintic_layout(corners: &Corners, legs: [f64; 2]) -> Result<(f64, [BezierCurve<DVec3>; 4]), Error> {
+fn quintic_layout(
+    corners: &Corners,
+    legs: [f64; 2],
+) -> Result<(f64, [BezierCurve<DVec3>; 4]), Error> {
     let mut points = Vec::with_capacity(4);
     let mut natural = Vec::with_capacity(4);
     for (axis, [a, b]) in SIDES {
         let ends = [a, b].map(|[i, j]| curve_end(&corners[i][j], axis));
         let chord = ends[0].point.distance(ends[1].point);
         if !(chord > 0.0) {
-            return Err(Error::CornerData { corner: b, what: "two corners coincide (distance)", value: chord });
+            return Err(Error::CornerData {
+                corner: b,
+                what: "two corners coincide (distance)",
+                value: chord,
+            });
         }
         let control = quintic_control(&ends, chord, legs);
         natural.push(quintic_end_invariants(&control, &[1.0; 6])?);
@@ -389,7 +502,8 @@ fn quintic_layout(corners: &Corners, legs: [f64; 2]) -> Result<(f64, [BezierCurv
     for i in 0..2 {
         for j in 0..2 {
             let (along_u, along_v) = (2 * j, 1 + 2 * i);
-            let naturals = [natural[along_u][i], natural[along_v][j]].map(EndInvariants::settled_torsion);
+            let naturals =
+                [natural[along_u][i], natural[along_v][j]].map(EndInvariants::settled_torsion);
             let torsions = split_torsion(corners[i][j].torsion_sum(), naturals)?;
             wanted[along_u][i].torsion = torsions[0];
             wanted[along_v][j].torsion = torsions[1];
@@ -400,7 +514,11 @@ fn quintic_layout(corners: &Corners, legs: [f64; 2]) -> Result<(f64, [BezierCurv
     for (control, wanted) in points.iter().zip(wanted) {
         let weights = quintic_weights(control, wanted)?;
         effort = weights.iter().fold(effort, |m, w| m.max(w.ln().abs()));
-        let control = control.iter().zip(weights).map(|(p, w)| MassPoint::point(*p, w)).collect();
+        let control = control
+            .iter()
+            .zip(weights)
+            .map(|(p, w)| MassPoint::point(*p, w))
+            .collect();
         curves.push(BezierCurve::new(control)?);
     }
     Ok((effort, four(curves)?))
@@ -413,7 +531,10 @@ fn quintic_control(ends: &[CurveEnd; 2], chord: f64, [leg, next]: [f64; 2]) -> [
     let inner = |end: &CurveEnd, forward: f64| {
         let first = end.point + end.tangent * (forward * a);
         let height = end.normal * (1.25 * end.curvature * a * a);
-        (first, first + end.tangent * (forward * next * chord) + height)
+        (
+            first,
+            first + end.tangent * (forward * next * chord) + height,
+        )
     };
     let ((p1, p2), (p4, p3)) = (inner(&ends[0], 1.0), inner(&ends[1], -1.0));
     [ends[0].point, p1, p2, p3, p4, ends[1].point]
@@ -436,7 +557,11 @@ fn split_torsion(sum: f64, natural: [f64; 2]) -> Result<[f64; 2], Error> {
     };
     for (end, (wanted, natural)) in split.into_iter().zip(natural).enumerate() {
         if wanted * natural < 0.0 || (wanted == 0.0) != (natural == 0.0) {
-            return Err(Error::TorsionSign { end, wanted, natural });
+            return Err(Error::TorsionSign {
+                end,
+                wanted,
+                natural,
+            });
         }
     }
     Ok(split)

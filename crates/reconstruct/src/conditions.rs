@@ -65,7 +65,9 @@ pub enum Violation {
         side: usize,
     },
     /// (C1) A principal normal is not normal to the tangent plane at a corner.
-    #[error("C1: the normal of curve {side} leaves the surface normal at corner {corner} (sine {sine:e})")]
+    #[error(
+        "C1: the normal of curve {side} leaves the surface normal at corner {corner} (sine {sine:e})"
+    )]
     C1 {
         /// The corner.
         corner: Corner,
@@ -168,14 +170,31 @@ pub(crate) fn check<S: Strip>(
     around: &[(usize, bool)],
     tolerance: f64,
 ) -> BoundaryReport {
-    let samples: Vec<[StripSample; 2]> = strips.iter().map(|strip| [strip.sample(0.0), strip.sample(1.0)]).collect();
+    let samples: Vec<[StripSample; 2]> = strips
+        .iter()
+        .map(|strip| [strip.sample(0.0), strip.sample(1.0)])
+        .collect();
     let at = |curve: CornerCurve| samples[curve.side][usize::from(curve.t > 0.5)];
-    let size = samples.iter().map(|[a, b]| a.point[0].distance(b.point[0])).fold(0.0, f64::max);
+    let size = samples
+        .iter()
+        .map(|[a, b]| a.point[0].distance(b.point[0]))
+        .fold(0.0, f64::max);
     let passing: Vec<bool> = strips.iter().map(Strip::passes_inflections).collect();
     let mut report = BoundaryReport::default();
     let mut countable = true;
-    for CornerCurves { corner, first, second } in corners {
-        let found = corner_violation(*corner, [(*first, at(*first)), (*second, at(*second))], &passing, size, tolerance);
+    for CornerCurves {
+        corner,
+        first,
+        second,
+    } in corners
+    {
+        let found = corner_violation(
+            *corner,
+            [(*first, at(*first)), (*second, at(*second))],
+            &passing,
+            size,
+            tolerance,
+        );
         countable &= !matches!(
             found,
             Err(Violation::IrregularCurve { .. } | Violation::InflectionAtCorner { .. })
@@ -193,7 +212,9 @@ pub(crate) fn check<S: Strip>(
     if countable {
         count_reversals(strips, around, &mut report);
         if !report.reversals.is_multiple_of(2) {
-            report.violations.push(Violation::C2 { reversals: report.reversals });
+            report.violations.push(Violation::C2 {
+                reversals: report.reversals,
+            });
         }
     }
     report
@@ -217,7 +238,10 @@ fn corner_violation(
     for (tangent, (curve, sample)) in tangents.iter_mut().zip(&curves) {
         *tangent = sample.point[1].normalize_or_zero() * curve.outward;
         if *tangent == DVec3::ZERO {
-            return Err(Violation::IrregularCurve { corner, side: curve.side });
+            return Err(Violation::IrregularCurve {
+                corner,
+                side: curve.side,
+            });
         }
     }
     let cross = tangents[0].cross(tangents[1]);
@@ -228,16 +252,25 @@ fn corner_violation(
     let normal = cross / sine;
     for (curve, sample) in &curves {
         let [_, velocity, acceleration, _] = sample.point;
-        let curved = velocity.cross(acceleration).length() > NO_CURVATURE * velocity.length_squared();
-        let defined = sample.across[0] != DVec3::ZERO && sample.across.iter().all(|v| v.is_finite());
+        let curved =
+            velocity.cross(acceleration).length() > NO_CURVATURE * velocity.length_squared();
+        let defined =
+            sample.across[0] != DVec3::ZERO && sample.across.iter().all(|v| v.is_finite());
         if !defined || !(curved || passes_inflections[curve.side]) {
-            return Err(Violation::InflectionAtCorner { corner, side: curve.side });
+            return Err(Violation::InflectionAtCorner {
+                corner,
+                side: curve.side,
+            });
         }
     }
     for (curve, sample) in &curves {
         let sine = sample.normal().cross(normal).length();
         if !(sine <= tolerance) {
-            return Err(Violation::C1 { corner, side: curve.side, sine });
+            return Err(Violation::C1 {
+                corner,
+                side: curve.side,
+                sine,
+            });
         }
     }
     let [first, second] = curves.map(|(_, sample)| signed_invariants(&sample, normal));
@@ -245,7 +278,11 @@ fn corner_violation(
     let cosine = tangents[0].dot(tangents[1]);
     let residual = ((tau1 + tau2) * sine - (k2 - k1) * cosine).abs() * size
         / (1.0 + size * (k1.abs() + k2.abs() + tau1.abs() + tau2.abs()));
-    if residual <= tolerance { Ok(residual) } else { Err(Violation::C3 { corner, residual }) }
+    if residual <= tolerance {
+        Ok(residual)
+    } else {
+        Err(Violation::C3 { corner, residual })
+    }
 }
 
 /// Normal curvature `sigma k` and torsion of the strip at a corner. With `h = N x e` the torsion is the rate
@@ -274,8 +311,10 @@ fn count_reversals<S: Strip>(strips: &[S], around: &[(usize, bool)], report: &mu
     let mut ends: Vec<[DVec3; 2]> = Vec::with_capacity(around.len());
     for &(side, reversed) in around {
         let normal = |t: f64| principal_normal(&strips[side], t);
-        let mut samples: Vec<(f64, DVec3)> =
-            (0..=FIRST_SAMPLES).map(|i| i as f64 / FIRST_SAMPLES as f64).map(|t| (t, normal(t))).collect();
+        let mut samples: Vec<(f64, DVec3)> = (0..=FIRST_SAMPLES)
+            .map(|i| i as f64 / FIRST_SAMPLES as f64)
+            .map(|t| (t, normal(t)))
+            .collect();
         let last = samples.len() - 1;
         // At an end or a probe that is itself an inflection take the limit from inside.
         for (i, (t, n)) in samples.iter_mut().enumerate() {
@@ -285,12 +324,18 @@ fn count_reversals<S: Strip>(strips: &[S], around: &[(usize, bool)], report: &mu
             }
         }
         for pair in samples.windows(2) {
-            follow(&normal, pair[0], pair[1], BISECTIONS, &mut |t| report.inflections.push((side, t)));
+            follow(&normal, pair[0], pair[1], BISECTIONS, &mut |t| {
+                report.inflections.push((side, t))
+            });
         }
         let [start, end] = [samples[0].1, samples[last].1];
         ends.push(if reversed { [end, start] } else { [start, end] });
     }
-    let corners = ends.iter().zip(ends.iter().cycle().skip(1)).filter(|(a, b)| a[1].dot(b[0]) < 0.0).count();
+    let corners = ends
+        .iter()
+        .zip(ends.iter().cycle().skip(1))
+        .filter(|(a, b)| a[1].dot(b[0]) < 0.0)
+        .count();
     report.reversals = report.inflections.len() + corners;
 }
 
@@ -307,17 +352,18 @@ fn follow(
         return;
     }
     let middle = 0.5 * (a + b);
-    if depth == 0 || middle <= a || middle >= b {
-        if cosine < 0.0 {
-            found(middle);
-        }
-        return;
-    }
     let mut here = (middle, normal(middle));
     if here.1 == DVec3::ZERO {
         // Exactly an inflection: step aside, the sides will show whether it reverses.
         here.0 = a + 0.499 * (b - a);
         here.1 = normal(here.0);
+    }
+    // So near an inflection that the normal is lost in rounding, the ends tell.
+    if depth == 0 || here.1 == DVec3::ZERO {
+        if cosine < 0.0 {
+            found(middle);
+        }
+        return;
     }
     follow(normal, (a, start), here, depth - 1, found);
     follow(normal, here, (b, end), depth - 1, found);

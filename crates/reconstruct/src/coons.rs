@@ -6,7 +6,9 @@
 //! normal part that both boundaries agree on exactly when the crossing identity holds; its tangential part, two
 //! numbers a corner, is free.
 
-use crate::conditions::{BoundaryReport, CONDITION_TOLERANCE, Corner, CornerCurve, CornerCurves, check};
+use crate::conditions::{
+    BoundaryReport, CONDITION_TOLERANCE, Corner, CornerCurve, CornerCurves, check,
+};
 use crate::hermite::{HermiteCubic, combine, hermite, least_same_sign};
 use crate::strip::{GeodesicStrip, Strip, StripSample};
 use crate::{Error, Surface};
@@ -31,8 +33,16 @@ fn corner_curves() -> [CornerCurves; 4] {
         let [along_u, along_v] = sides_at([i, j]);
         CornerCurves {
             corner: Corner::Rectangle(i, j),
-            first: CornerCurve { side: along_u, t: i as f64, outward: 1.0 },
-            second: CornerCurve { side: along_v, t: j as f64, outward: 1.0 },
+            first: CornerCurve {
+                side: along_u,
+                t: i as f64,
+                outward: 1.0,
+            },
+            second: CornerCurve {
+                side: along_v,
+                t: j as f64,
+                outward: 1.0,
+            },
         }
     })
 }
@@ -91,18 +101,27 @@ impl<S: Strip> Rectangle<S> {
         if !report.violations.is_empty() {
             return Err(Error::Conditions(report.violations));
         }
-        if let Some(&(side, t)) = report.inflections.iter().find(|(side, _)| !strips[*side].passes_inflections()) {
+        if let Some(&(side, t)) = report
+            .inflections
+            .iter()
+            .find(|(side, _)| !strips[*side].passes_inflections())
+        {
             return Err(Error::Inflection { side, t });
         }
-        let ends = [0, 1, 2, 3].map(|side: usize| [strips[side].sample(0.0), strips[side].sample(1.0)]);
+        let ends =
+            [0, 1, 2, 3].map(|side: usize| [strips[side].sample(0.0), strips[side].sample(1.0)]);
         let corners = CORNERS.map(|[i, j]| {
             let [u, v] = sides_at([i, j]);
             let (along_u, along_v) = (&ends[u][i], &ends[v][j]);
             let cross = along_u.point[1].cross(along_v.point[1]);
-            let (normal, tangent) = (cross.normalize_or_zero(), along_u.point[1].normalize_or_zero());
+            let (normal, tangent) = (
+                cross.normalize_or_zero(),
+                along_u.point[1].normalize_or_zero(),
+            );
             // Equal by the crossing identity, up to the tolerance: the mean shares what is left.
             let twist_normal = 0.5
-                * (normal_twist(along_u, along_v.point[1], normal) + normal_twist(along_v, along_u.point[1], normal));
+                * (normal_twist(along_u, along_v.point[1], normal)
+                    + normal_twist(along_v, along_u.point[1], normal));
             let angle = cross.length().atan2(along_u.point[1].dot(along_v.point[1]));
             CornerFrame {
                 point: 0.5 * (along_u.point[0] + along_v.point[0]),
@@ -112,7 +131,12 @@ impl<S: Strip> Rectangle<S> {
                 angle,
             }
         });
-        Ok(Self { strips, ends, corners, report })
+        Ok(Self {
+            strips,
+            ends,
+            corners,
+            report,
+        })
     }
 
     /// The boundary strips.
@@ -165,7 +189,10 @@ impl<S: Strip> Rectangle<S> {
     /// As [`Rectangle::patch`] without the check of the boundary.
     pub(crate) fn patch_unchecked(&self, twists: Twists) -> Result<CoonsPatch<S>, Error> {
         if let Some(index) = twists.iter().flatten().position(|w| !w.is_finite()) {
-            return Err(Error::NonFinite { what: "twist component", index });
+            return Err(Error::NonFinite {
+                what: "twist component",
+                index,
+            });
         }
         let vectors: [DVec3; 4] = core::array::from_fn(|corner| self.twist(corner, twists[corner]));
         let mut fields = [TransverseField::default(); 4];
@@ -182,12 +209,20 @@ impl<S: Strip> Rectangle<S> {
             grid[slope][value_v] = along_u.point[1];
             grid[slope][slope_v] = vectors[corner];
         }
-        Ok(CoonsPatch { rectangle: self.clone(), twists, fields, grid })
+        Ok(CoonsPatch {
+            rectangle: self.clone(),
+            twists,
+            fields,
+            grid,
+        })
     }
 
     /// The direction of a free parameter at its corner, and its corner.
     pub(crate) fn free_direction(&self, parameter: usize) -> (usize, DVec3) {
-        (parameter / 2, self.corners[parameter / 2].tangents[parameter % 2])
+        (
+            parameter / 2,
+            self.corners[parameter / 2].tangents[parameter % 2],
+        )
     }
 }
 
@@ -212,7 +247,13 @@ pub(crate) struct TransverseField {
 impl TransverseField {
     /// Makes the field have this value and derivative at the end 0 or 1, whose sample is given. The normal part of
     /// the derivative takes care of itself.
-    pub(crate) fn set_end(&mut self, end: usize, sample: &StripSample, value: DVec3, derivative: DVec3) {
+    pub(crate) fn set_end(
+        &mut self,
+        end: usize,
+        sample: &StripSample,
+        value: DVec3,
+        derivative: DVec3,
+    ) {
         let [p, q] = components(sample, value);
         let rest = derivative - sample.along[1] * p - sample.across[1] * q;
         let [p_slope, q_slope] = components(sample, rest);
@@ -223,9 +264,16 @@ impl TransverseField {
 
     /// The field and its two derivatives at a sample, given the Hermite functions there.
     pub(crate) fn at(&self, sample: &StripSample, functions: &[[f64; 4]; 3]) -> [DVec3; 3] {
-        let (p, q) = (combine(&self.along, functions), combine(&self.across, functions));
+        let (p, q) = (
+            combine(&self.along, functions),
+            combine(&self.across, functions),
+        );
         let product = |c: [f64; 3], v: &[DVec3; 3]| {
-            [v[0] * c[0], v[0] * c[1] + v[1] * c[0], v[0] * c[2] + v[1] * (2.0 * c[1]) + v[2] * c[0]]
+            [
+                v[0] * c[0],
+                v[0] * c[1] + v[1] * c[0],
+                v[0] * c[2] + v[1] * (2.0 * c[1]) + v[2] * c[0],
+            ]
         };
         let (a, b) = (product(p, &sample.along), product(q, &sample.across));
         [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
@@ -278,7 +326,10 @@ impl<S: Strip> CoonsPatch<S> {
     pub(crate) fn line(&self, along_v: bool, t: f64) -> Line {
         let (low, high) = if along_v { (1, 3) } else { (0, 2) };
         let functions = hermite(t);
-        let samples = [self.rectangle.strips[low].sample(t), self.rectangle.strips[high].sample(t)];
+        let samples = [
+            self.rectangle.strips[low].sample(t),
+            self.rectangle.strips[high].sample(t),
+        ];
         let point = |sample: &StripSample| [sample.point[0], sample.point[1], sample.point[2]];
         let column = [
             point(&samples[0]),
@@ -286,7 +337,11 @@ impl<S: Strip> CoonsPatch<S> {
             self.fields[high].at(&samples[1], &functions),
             point(&samples[1]),
         ];
-        Line { functions, samples, column }
+        Line {
+            functions,
+            samples,
+            column,
+        }
     }
 
     /// The mixed derivative of orders `a` in `u` and `b` in `v`.
@@ -310,7 +365,11 @@ impl<S: Strip> CoonsPatch<S> {
             let scale = field.across[0].abs().max(field.across[3].abs());
             let (least, t) = least_same_sign(field.across);
             if !(least > REGULAR * scale) {
-                return Err(Error::IrregularBoundary { side, t, across: least / scale });
+                return Err(Error::IrregularBoundary {
+                    side,
+                    t,
+                    across: least / scale,
+                });
             }
         }
         Ok(())
@@ -323,8 +382,14 @@ impl<S: Strip> CoonsPatch<S> {
     pub fn regularity(&self, n: usize) -> (f64, [f64; 2]) {
         let n = n.max(1);
         let parameter = |i: usize| i as f64 / n as f64;
-        let lines: Vec<[Line; 2]> =
-            (0..=n).map(|i| [self.line(false, parameter(i)), self.line(true, parameter(i))]).collect();
+        let lines: Vec<[Line; 2]> = (0..=n)
+            .map(|i| {
+                [
+                    self.line(false, parameter(i)),
+                    self.line(true, parameter(i)),
+                ]
+            })
+            .collect();
         let mut worst = (f64::INFINITY, [0.0; 2]);
         for (i, [u, _]) in lines.iter().enumerate() {
             for (j, [_, v]) in lines.iter().enumerate() {

@@ -97,7 +97,11 @@ fn taylor_in<V: VectorSpace, const N: usize>(row: &mut [V], t: f64) -> [V; N] {
             let order = length - 1;
             let mut difference = V::ZERO;
             for (i, value) in row[..length].iter().enumerate() {
-                let sign = if (order - i).is_multiple_of(2) { 1.0 } else { -1.0 };
+                let sign = if (order - i).is_multiple_of(2) {
+                    1.0
+                } else {
+                    -1.0
+                };
                 difference = difference.plus(value.times(sign * binomial(order, i)));
             }
             series[order] = difference.times(binomial(degree, order));

@@ -78,7 +78,9 @@ pub enum Error {
         sine: f64,
     },
     /// Neighbouring angles differ by half a turn, which could be either way round.
-    #[error("angle {index} differs by half a turn ({jump}) from the one before, which is ambiguous")]
+    #[error(
+        "angle {index} differs by half a turn ({jump}) from the one before, which is ambiguous"
+    )]
     AmbiguousTurn {
         /// The second of the two.
         index: usize,
@@ -86,7 +88,9 @@ pub enum Error {
         jump: f64,
     },
     /// Neighbouring tangents are antipodal.
-    #[error("antipodal neighbouring tangents at {index} (cosine {cosine}): the interpolation is undefined")]
+    #[error(
+        "antipodal neighbouring tangents at {index} (cosine {cosine}): the interpolation is undefined"
+    )]
     AntipodalTangents {
         /// The second of the two.
         index: usize,
@@ -102,7 +106,9 @@ pub enum Error {
         index: usize,
     },
     /// The spline of unit tangents passes near zero, where it has no direction: too few sensors for the turns.
-    #[error("the spline of the tangents has length {length} at arc length {s}: the data turn too fast")]
+    #[error(
+        "the spline of the tangents has length {length} at arc length {s}: the data turn too fast"
+    )]
     TangentLost {
         /// Where on the ribbon.
         s: f64,
@@ -120,7 +126,9 @@ pub enum Error {
         expected: f64,
     },
     /// The accuracy asked for was not reached between two arc lengths.
-    #[error("the integral over [{start}, {end}] was not reached to the accuracy asked for, error {error:e}")]
+    #[error(
+        "the integral over [{start}, {end}] was not reached to the accuracy asked for, error {error:e}"
+    )]
     NotIntegrable {
         /// Start of the interval.
         start: f64,
@@ -156,7 +164,9 @@ pub enum Error {
         Vec<Violation>,
     ),
     /// A curve has no principal normal and no normal was given.
-    #[error("curve {side} has an inflection at parameter {t}, where its osculating plane is undefined")]
+    #[error(
+        "curve {side} has an inflection at parameter {t}, where its osculating plane is undefined"
+    )]
     Inflection {
         /// The curve's place among the boundaries.
         side: usize,
@@ -165,7 +175,9 @@ pub enum Error {
     },
     /// The surface has no tangent plane at a boundary point: the derivative across the boundary becomes
     /// tangent to it.
-    #[error("irregular boundary: across curve {side} the surface folds at parameter {t} (component {across:e})")]
+    #[error(
+        "irregular boundary: across curve {side} the surface folds at parameter {t} (component {across:e})"
+    )]
     IrregularBoundary {
         /// The curve's place among the boundaries.
         side: usize,
@@ -188,7 +200,9 @@ pub enum Error {
         value: f64,
     },
     /// The torsion wanted at an end has not the sign that the control points allow.
-    #[error("torsion sign incompatible with the control points at end {end}: {wanted} wanted, {natural} with unit weights")]
+    #[error(
+        "torsion sign incompatible with the control points at end {end}: {wanted} wanted, {natural} with unit weights"
+    )]
     TorsionSign {
         /// 0 for the start of the curve, 1 for its end.
         end: usize,
@@ -203,5 +217,8 @@ pub enum Error {
 }
 
 fn first(violations: &[Violation]) -> String {
-    violations.first().map(ToString::to_string).unwrap_or_default()
+    violations
+        .first()
+        .map(ToString::to_string)
+        .unwrap_or_default()
 }

@@ -45,11 +45,17 @@ impl FrenetFrame {
     /// As [`FrenetFrame::at`].
     pub fn of(series: &VectorSeries, t: f64) -> Result<Self, Error> {
         if !series.is_finite() {
-            return Err(Error::NonFinite { what: "derivative of the curve", index: 0 });
+            return Err(Error::NonFinite {
+                what: "derivative of the curve",
+                index: 0,
+            });
         }
         let [velocity, acceleration, third] = [1, 2, 3].map(|k| series.derivative_at(k));
         let speed = velocity.length();
-        let tangent = velocity.try_normalize().ok_or(Error::ZeroVector { what: "velocity", index: 0 })?;
+        let tangent = velocity.try_normalize().ok_or(Error::ZeroVector {
+            what: "velocity",
+            index: 0,
+        })?;
         let cross = velocity.cross(acceleration);
         if cross.length() <= INFLECTION * speed * (speed + acceleration.length()) {
             return Err(Error::Inflection { side: 0, t });
@@ -94,16 +100,30 @@ impl DarbouxFrame {
     ///
     /// # Errors
     /// [`Error::ZeroVector`] where the surface has no normal (index 0) or the curve no velocity (index 1).
-    pub fn on_surface(at: &Partials<DVec3>, [du, dv]: [f64; 2], [ddu, ddv]: [f64; 2]) -> Result<Self, Error> {
+    pub fn on_surface(
+        at: &Partials<DVec3>,
+        [du, dv]: [f64; 2],
+        [ddu, ddv]: [f64; 2],
+    ) -> Result<Self, Error> {
         let velocity = at.du * du + at.dv * dv;
-        let acceleration =
-            at.duu * (du * du) + at.duv * (2.0 * du * dv) + at.dvv * (dv * dv) + at.du * ddu + at.dv * ddv;
+        let acceleration = at.duu * (du * du)
+            + at.duv * (2.0 * du * dv)
+            + at.dvv * (dv * dv)
+            + at.du * ddu
+            + at.dv * ddv;
         let cross = at.du.cross(at.dv);
-        let normal = cross.try_normalize().ok_or(Error::ZeroVector { what: "surface normal", index: 0 })?;
-        let tangent = velocity.try_normalize().ok_or(Error::ZeroVector { what: "velocity", index: 1 })?;
+        let normal = cross.try_normalize().ok_or(Error::ZeroVector {
+            what: "surface normal",
+            index: 0,
+        })?;
+        let tangent = velocity.try_normalize().ok_or(Error::ZeroVector {
+            what: "velocity",
+            index: 1,
+        })?;
         let speed = velocity.length();
         let conormal = normal.cross(tangent);
-        let cross_rate = (at.duu * du + at.duv * dv).cross(at.dv) + at.du.cross(at.duv * du + at.dvv * dv);
+        let cross_rate =
+            (at.duu * du + at.duv * dv).cross(at.dv) + at.du.cross(at.duv * du + at.dvv * dv);
         Ok(Self {
             point: at.position,
             tangent,
@@ -149,7 +169,10 @@ impl GeodesicCheck {
 #[must_use]
 pub fn crossing_residual(normal: DVec3, first: &FrenetFrame, second: &FrenetFrame) -> f64 {
     let signed = |frame: &FrenetFrame| frame.curvature * 1f64.copysign(frame.normal.dot(normal));
-    let sine = first.tangent.cross(second.tangent).dot(normal.normalize_or_zero());
+    let sine = first
+        .tangent
+        .cross(second.tangent)
+        .dot(normal.normalize_or_zero());
     let cosine = first.tangent.dot(second.tangent);
     (first.torsion + second.torsion) * sine - (signed(second) - signed(first)) * cosine
 }
@@ -162,7 +185,10 @@ mod tests {
     /// The torus `R = 2, r = 0.7` by its two angles.
     fn torus(u: f64, v: f64) -> Partials<DVec3> {
         let (rho, z) = (2.0 + 0.7 * v.cos(), 0.7 * v.sin());
-        let (c, s) = (DVec3::new(u.cos(), u.sin(), 0.0), DVec3::new(-u.sin(), u.cos(), 0.0));
+        let (c, s) = (
+            DVec3::new(u.cos(), u.sin(), 0.0),
+            DVec3::new(-u.sin(), u.cos(), 0.0),
+        );
         let (rho1, z1) = (-0.7 * v.sin(), 0.7 * v.cos());
         Partials {
             position: c * rho + DVec3::Z * z,
@@ -179,7 +205,9 @@ mod tests {
         // The parallel at tube angle v has geodesic curvature sin v / rho up to sign and no geodesic torsion.
         let v = 0.8f64;
         let parallel = DarbouxFrame::on_surface(&torus(0.4, v), [1.0, 0.0], [0.0, 0.0]).unwrap();
-        assert!((parallel.geodesic_curvature.abs() - v.sin() / (2.0 + 0.7 * v.cos())).abs() < 1e-15);
+        assert!(
+            (parallel.geodesic_curvature.abs() - v.sin() / (2.0 + 0.7 * v.cos())).abs() < 1e-15
+        );
         assert!(parallel.geodesic_torsion.abs() < 1e-15);
         let meridian = DarbouxFrame::on_surface(&torus(0.4, v), [0.0, 1.0], [0.0, 0.0]).unwrap();
         assert!(meridian.geodesic_curvature.abs() < 1e-15);
@@ -192,7 +220,10 @@ mod tests {
     fn the_three_characterisations_and_the_sign_of_the_torsion() {
         let helix = AnalyticCurve::new(|t| [t.cos(), t.sin(), t * 0.4]);
         let frame = FrenetFrame::at(&helix, 0.9).unwrap();
-        assert!((frame.curvature - 1.0 / 1.16).abs() < 1e-15 && (frame.torsion - 0.4 / 1.16).abs() < 1e-15);
+        assert!(
+            (frame.curvature - 1.0 / 1.16).abs() < 1e-15
+                && (frame.torsion - 0.4 / 1.16).abs() < 1e-15
+        );
         let (c, s) = (0.9f64.cos(), 0.9f64.sin());
         let cylinder = Partials {
             position: DVec3::new(c, s, 0.36),
@@ -212,7 +243,9 @@ mod tests {
         let tilted = darboux.normal * 0.1f64.cos() + darboux.conormal * 0.1f64.sin();
         let check = GeodesicCheck::new(&frame, tilted);
         assert!((check.normal_sine - 0.1f64.sin()).abs() < 1e-15);
-        assert!((check.geodesic_curvature.abs() - frame.curvature * check.normal_sine).abs() < 1e-15);
+        assert!(
+            (check.geodesic_curvature.abs() - frame.curvature * check.normal_sine).abs() < 1e-15
+        );
     }
 
     /// Proposition 3: of two surfaces in G1 contact along a curve, the curve has the same geodesic curvature
@@ -221,10 +254,24 @@ mod tests {
     fn proposition_3() {
         for t in [0.0, 0.7, 2.0f64] {
             let (c, s) = (t.cos(), t.sin());
-            let equator = [DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::new(-c, -s, 0.0)];
+            let equator = [
+                DVec3::new(c, s, 0.0),
+                DVec3::new(-s, c, 0.0),
+                DVec3::new(-c, -s, 0.0),
+            ];
             let [position, du, duu] = equator;
-            let sphere = Partials { position, du, dv: DVec3::Z, duu, duv: DVec3::ZERO, dvv: -position };
-            let cylinder = Partials { dvv: DVec3::ZERO, ..sphere };
+            let sphere = Partials {
+                position,
+                du,
+                dv: DVec3::Z,
+                duu,
+                duv: DVec3::ZERO,
+                dvv: -position,
+            };
+            let cylinder = Partials {
+                dvv: DVec3::ZERO,
+                ..sphere
+            };
             for surface in [sphere, cylinder] {
                 let frame = DarbouxFrame::on_surface(&surface, [1.0, 0.0], [0.0, 0.0]).unwrap();
                 assert!(frame.geodesic_curvature.abs() < 1e-15);
@@ -235,9 +282,18 @@ mod tests {
     #[test]
     fn inflections_and_cusps_have_no_frame() {
         let wave = AnalyticCurve::new(|t| [t, t * t * t, t * 0.0]);
-        assert!(matches!(FrenetFrame::at(&wave, 0.0), Err(Error::Inflection { .. })));
+        assert!(matches!(
+            FrenetFrame::at(&wave, 0.0),
+            Err(Error::Inflection { .. })
+        ));
         let cusp = AnalyticCurve::new(|t| [t * t, t * t * t, t * 0.0]);
-        assert!(matches!(FrenetFrame::at(&cusp, 0.0), Err(Error::ZeroVector { .. })));
-        assert!(matches!(FrenetFrame::at(&wave, f64::NAN), Err(Error::NonFinite { .. })));
+        assert!(matches!(
+            FrenetFrame::at(&cusp, 0.0),
+            Err(Error::ZeroVector { .. })
+        ));
+        assert!(matches!(
+            FrenetFrame::at(&wave, f64::NAN),
+            Err(Error::NonFinite { .. })
+        ));
     }
 }

@@ -4,8 +4,18 @@
 pub(crate) fn hermite(t: f64) -> [[f64; 4]; 3] {
     let s = 1.0 - t;
     [
-        [s * s * (1.0 + 2.0 * t), t * s * s, -t * t * s, t * t * (3.0 - 2.0 * t)],
-        [-6.0 * t * s, s * (1.0 - 3.0 * t), t * (3.0 * t - 2.0), 6.0 * t * s],
+        [
+            s * s * (1.0 + 2.0 * t),
+            t * s * s,
+            -t * t * s,
+            t * t * (3.0 - 2.0 * t),
+        ],
+        [
+            -6.0 * t * s,
+            s * (1.0 - 3.0 * t),
+            t * (3.0 * t - 2.0),
+            6.0 * t * s,
+        ],
         [12.0 * t - 6.0, 6.0 * t - 4.0, 6.0 * t - 2.0, 6.0 - 12.0 * t],
     ]
 }
@@ -30,7 +40,11 @@ pub(crate) fn least_same_sign(cubic: HermiteCubic) -> (f64, f64) {
     let value = |t: f64| sign * combine(&cubic, &hermite(t))[0];
     // The derivative is the quadratic a t² + b t + c.
     let [v0, s0, s1, v1] = cubic;
-    let (a, b, c) = (3.0 * (2.0 * (v0 - v1) + s0 + s1), 2.0 * (3.0 * (v1 - v0) - 2.0 * s0 - s1), s0);
+    let (a, b, c) = (
+        3.0 * (2.0 * (v0 - v1) + s0 + s1),
+        2.0 * (3.0 * (v1 - v0) - 2.0 * s0 - s1),
+        s0,
+    );
     let root = (b * b - 4.0 * a * c).max(0.0).sqrt();
     let q = -0.5 * (b + root.copysign(b));
     let stationary = [q / a, c / q];
@@ -49,13 +63,18 @@ mod tests {
     #[test]
     fn end_data_and_derivatives() {
         let cubic = [1.5, -2.0, 0.7, 3.0];
-        let (a, b) = (combine(&cubic, &hermite(0.0)), combine(&cubic, &hermite(1.0)));
+        let (a, b) = (
+            combine(&cubic, &hermite(0.0)),
+            combine(&cubic, &hermite(1.0)),
+        );
         assert_eq!([a[0], a[1], b[1], b[0]], cubic);
         let h = 1e-5;
         let [before, at, after] = [0.4 - h, 0.4, 0.4 + h].map(|t| combine(&cubic, &hermite(t)));
         assert!(((after[0] - before[0]) / (2.0 * h) - at[1]).abs() < 1e-9);
         assert!(((after[1] - before[1]) / (2.0 * h) - at[2]).abs() < 1e-9);
-        assert!((bezier_mass::bernstein::evaluate(&to_bernstein(cubic), 0.4) - at[0]).abs() < 1e-15);
+        assert!(
+            (bezier_mass::bernstein::evaluate(&to_bernstein(cubic), 0.4) - at[0]).abs() < 1e-15
+        );
     }
 
     #[test]

@@ -6,8 +6,9 @@ use bezier_mass::VectorSpace;
 /// One six-point Gauss step over `[start, end]`.
 pub(crate) fn gauss_step<V: VectorSpace>(tangent: &impl Fn(f64) -> V, start: f64, end: f64) -> V {
     let length = end - start;
-    SIX.iter()
-        .fold(V::ZERO, |sum, (node, weight)| sum.plus(tangent(start + node * length).times(weight * length)))
+    SIX.iter().fold(V::ZERO, |sum, (node, weight)| {
+        sum.plus(tangent(start + node * length).times(weight * length))
+    })
 }
 
 /// Bisections after which an integrand is given up: an interval of 2^-24 of a sensor spacing.
@@ -22,7 +23,13 @@ pub(crate) fn integrate<V: VectorSpace>(
     end: f64,
     accuracy: f64,
 ) -> Result<(V, f64), Error> {
-    bisect(tangent, [start, end], gauss_step(tangent, start, end), accuracy, 0)
+    bisect(
+        tangent,
+        [start, end],
+        gauss_step(tangent, start, end),
+        accuracy,
+        0,
+    )
 }
 
 fn bisect<V: VectorSpace>(
@@ -33,7 +40,10 @@ fn bisect<V: VectorSpace>(
     depth: u32,
 ) -> Result<(V, f64), Error> {
     let middle = 0.5 * (start + end);
-    let (left, right) = (gauss_step(tangent, start, middle), gauss_step(tangent, middle, end));
+    let (left, right) = (
+        gauss_step(tangent, start, middle),
+        gauss_step(tangent, middle, end),
+    );
     let fine = left.plus(right);
     let error = fine.minus(whole).magnitude();
     if error <= accuracy {

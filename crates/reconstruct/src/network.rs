@@ -51,30 +51,54 @@ impl RibbonNetwork {
     pub fn new(ribbons: Vec<SpatialRibbon>, crossings: Vec<Crossing>) -> Result<Self, Error> {
         check(&ribbons, &crossings)?;
         let size = ribbons.iter().map(length).fold(0.0, f64::max);
-        let measured: Vec<Vec<DVec3>> = ribbons.iter().map(|ribbon| ribbon.tangents().to_vec()).collect();
+        let measured: Vec<Vec<DVec3>> = ribbons
+            .iter()
+            .map(|ribbon| ribbon.tangents().to_vec())
+            .collect();
         let origins = vec![DVec3::ZERO; ribbons.len()];
-        let mut network = Self { ribbons, origins, crossings, gap_before: f64::NAN, gap: f64::INFINITY, largest_turn: 0.0 };
+        let mut network = Self {
+            ribbons,
+            origins,
+            crossings,
+            gap_before: f64::NAN,
+            gap: f64::INFINITY,
+            largest_turn: 0.0,
+        };
         network.place()?;
         for _ in 0..STEPS {
-            network.gap = network.gaps()?.iter().map(|gap| gap.length()).fold(0.0, f64::max);
+            network.gap = network
+                .gaps()?
+                .iter()
+                .map(|gap| gap.length())
+                .fold(0.0, f64::max);
             if network.gap_before.is_nan() {
                 network.gap_before = network.gap;
             }
             if network.gap <= CLOSED * size {
-                let turns = network.ribbons.iter().zip(&measured).flat_map(|(r, m)| r.tangents().iter().zip(m));
+                let turns = network
+                    .ribbons
+                    .iter()
+                    .zip(&measured)
+                    .flat_map(|(r, m)| r.tangents().iter().zip(m));
                 network.largest_turn = turns.map(|(a, b)| a.angle_between(*b)).fold(0.0, f64::max);
                 return Ok(network);
             }
             network.step(&measured)?;
         }
-        Err(Error::NoConvergence { what: "closing the crossings", steps: STEPS })
+        Err(Error::NoConvergence {
+            what: "closing the crossings",
+            steps: STEPS,
+        })
     }
 
     /// Puts the ribbons together with least squared gaps, their shapes being kept.
     fn place(&mut self) -> Result<(), Error> {
         let free = self.ribbons.len() - 1;
         let gaps = self.gaps()?;
-        let (mut matrix, mut right) = (DMatrix::<f64>::zeros(free, free), DMatrix::<f64>::zeros(free, 3));
+        let (mut matrix, mut right) = (
+            DMatrix::<f64>::zeros(free, free),
+            DMatrix::<f64>::zeros(free, 3),
+        );
         for (crossing, gap) in self.crossings.iter().zip(gaps) {
             let sides = [(crossing.ribbons[0], 1.0), (crossing.ribbons[1], -1.0)];
             for (i, sign) in sides.into_iter().filter(|(i, _)| *i > 0) {
@@ -121,7 +145,11 @@ impl RibbonNetwork {
                 Some(start)
             })
             .collect();
-        let unknowns: usize = self.ribbons.iter().map(|ribbon| 3 * ribbon.tangents().len()).sum();
+        let unknowns: usize = self
+            .ribbons
+            .iter()
+            .map(|ribbon| 3 * ribbon.tangents().len())
+            .sum();
         let (rows, moves) = (3 * self.crossings.len(), 3 * (self.ribbons.len() - 1));
         let mut jacobian = DMatrix::<f64>::zeros(rows, unknowns);
         let mut placing = DMatrix::<f64>::zeros(rows, moves);
@@ -133,11 +161,16 @@ impl RibbonNetwork {
             for (k, sign) in [(0, 1.0), (1, -1.0)] {
                 let ribbon = crossing.ribbons[k];
                 let blocks = self.ribbons[ribbon].sensitivity(crossing.s[k]);
-                for (j, (block, tangent)) in blocks.iter().zip(self.ribbons[ribbon].tangents()).enumerate() {
+                for (j, (block, tangent)) in blocks
+                    .iter()
+                    .zip(self.ribbons[ribbon].tangents())
+                    .enumerate()
+                {
                     // Only turns count: tangents stay unit vectors.
                     let block = *block * (DMat3::IDENTITY - outer(*tangent, *tangent));
                     for (row, column) in (0..9).map(|n| (n % 3, n / 3)) {
-                        jacobian[(3 * c + row, offsets[ribbon] + 3 * j + column)] += sign * block.col(column)[row];
+                        jacobian[(3 * c + row, offsets[ribbon] + 3 * j + column)] +=
+                            sign * block.col(column)[row];
                     }
                 }
                 if ribbon > 0 {
@@ -160,16 +193,30 @@ impl RibbonNetwork {
             right[row] += carried[row];
         }
         let mut system = DMatrix::<f64>::zeros(rows + moves, rows + moves);
-        system.view_mut((0, 0), (rows, rows)).copy_from(&(&jacobian * jacobian.transpose()));
-        system.view_mut((0, rows), (rows, moves)).copy_from(&placing);
-        system.view_mut((rows, 0), (moves, rows)).copy_from(&placing.transpose());
+        system
+            .view_mut((0, 0), (rows, rows))
+            .copy_from(&(&jacobian * jacobian.transpose()));
+        system
+            .view_mut((0, rows), (rows, moves))
+            .copy_from(&placing);
+        system
+            .view_mut((rows, 0), (moves, rows))
+            .copy_from(&placing.transpose());
         // Singular when crossings repeat each other or leave nothing to turn.
-        let no_way = Error::NoConvergence { what: "closing the crossings (they repeat or contradict each other)", steps: 0 };
+        let no_way = Error::NoConvergence {
+            what: "closing the crossings (they repeat or contradict each other)",
+            steps: 0,
+        };
         let solution = system.lu().solve(&right).ok_or(no_way)?;
         let wanted = jacobian.transpose() * solution.rows(0, rows);
         for (i, ribbon) in self.ribbons.iter_mut().enumerate() {
             let tangents: Vec<DVec3> = (0..measured[i].len())
-                .map(|j| measured[i][j] + DVec3::from_array(core::array::from_fn(|axis| wanted[offsets[i] + 3 * j + axis])))
+                .map(|j| {
+                    measured[i][j]
+                        + DVec3::from_array(core::array::from_fn(|axis| {
+                            wanted[offsets[i] + 3 * j + axis]
+                        }))
+                })
                 .collect();
             *ribbon = SpatialRibbon::new(ribbon.arc_lengths(), &tangents)?;
             if i > 0 {
@@ -221,8 +268,13 @@ impl RibbonNetwork {
     /// # Errors
     /// [`Error::OutOfRange`] for a ribbon that is not there; [`Error::NotIntegrable`] for an absurd arc length.
     pub fn point(&self, ribbon: usize, s: f64) -> Result<DVec3, Error> {
-        let (Some(found), Some(origin)) = (self.ribbons.get(ribbon), self.origins.get(ribbon)) else {
-            return Err(Error::OutOfRange { what: "ribbon", value: ribbon as f64, range: [0.0, self.ribbons.len() as f64 - 1.0] });
+        let (Some(found), Some(origin)) = (self.ribbons.get(ribbon), self.origins.get(ribbon))
+        else {
+            return Err(Error::OutOfRange {
+                what: "ribbon",
+                value: ribbon as f64,
+                range: [0.0, self.ribbons.len() as f64 - 1.0],
+            });
         };
         Ok(*origin + found.point(s)?)
     }
@@ -232,7 +284,10 @@ impl RibbonNetwork {
     /// # Errors
     /// [`Error::OutOfRange`] for a ribbon that is not there or a stretch off it.
     pub fn curve(&self, ribbon: usize, start: f64, end: f64) -> Result<RibbonCurve, Error> {
-        let origin = self.point(ribbon, self.ribbons.get(ribbon).map_or(0.0, |r| r.arc_lengths()[0]))?;
+        let origin = self.point(
+            ribbon,
+            self.ribbons.get(ribbon).map_or(0.0, |r| r.arc_lengths()[0]),
+        )?;
         RibbonCurve::new(self.ribbons[ribbon].clone(), start, end, origin)
     }
 
@@ -245,9 +300,17 @@ impl RibbonNetwork {
     /// # Errors
     /// [`Error::OutOfRange`] for a crossing that is not there; those of [`CornerData::new`].
     pub fn corner(&self, crossing: usize) -> Result<(CornerData, f64), Error> {
-        let Some(&Crossing { ribbons: [a, b], s: [sa, sb] }) = self.crossings.get(crossing) else {
+        let Some(&Crossing {
+            ribbons: [a, b],
+            s: [sa, sb],
+        }) = self.crossings.get(crossing)
+        else {
             let range = [0.0, self.crossings.len() as f64 - 1.0];
-            return Err(Error::OutOfRange { what: "crossing", value: crossing as f64, range });
+            return Err(Error::OutOfRange {
+                what: "crossing",
+                value: crossing as f64,
+                range,
+            });
         };
         let (first, second) = (&self.ribbons[a], &self.ribbons[b]);
         let tangents = [first.tangent(sa), second.tangent(sb)];
@@ -255,7 +318,10 @@ impl RibbonNetwork {
         let point = 0.5 * (self.point(a, sa)? + self.point(b, sb)?);
         let bends = [first.curvature_vector(sa), second.curvature_vector(sb)];
         let unit = normal.normalize_or_zero();
-        let sideways = bends.iter().map(|bend| (*bend - unit * bend.dot(unit)).length()).fold(0.0, f64::max);
+        let sideways = bends
+            .iter()
+            .map(|bend| (*bend - unit * bend.dot(unit)).length())
+            .fold(0.0, f64::max);
         let data = CornerData::new(point, normal, tangents, bends.map(|bend| bend.dot(unit)))?;
         Ok((data, sideways))
     }
@@ -268,19 +334,35 @@ fn length(ribbon: &SpatialRibbon) -> f64 {
 
 fn check(ribbons: &[SpatialRibbon], crossings: &[Crossing]) -> Result<(), Error> {
     if ribbons.is_empty() || (crossings.is_empty() && ribbons.len() > 1) {
-        let what = if ribbons.is_empty() { "ribbons" } else { "crossings" };
-        return Err(Error::TooFew { what, needed: 1, got: 0 });
+        let what = if ribbons.is_empty() {
+            "ribbons"
+        } else {
+            "crossings"
+        };
+        return Err(Error::TooFew {
+            what,
+            needed: 1,
+            got: 0,
+        });
     }
     for crossing in crossings {
         let [a, b] = crossing.ribbons;
         for (ribbon, s) in crossing.ribbons.into_iter().zip(crossing.s) {
             let Some(found) = ribbons.get(ribbon).filter(|_| a != b) else {
-                return Err(Error::OutOfRange { what: "ribbon of a crossing", value: ribbon as f64, range: [0.0, ribbons.len() as f64 - 1.0] });
+                return Err(Error::OutOfRange {
+                    what: "ribbon of a crossing",
+                    value: ribbon as f64,
+                    range: [0.0, ribbons.len() as f64 - 1.0],
+                });
             };
             let knots = found.arc_lengths();
             let range = [knots[0], knots[knots.len() - 1]];
             if !(range[0] <= s && s <= range[1]) {
-                return Err(Error::OutOfRange { what: "arc length of a crossing", value: s, range });
+                return Err(Error::OutOfRange {
+                    what: "arc length of a crossing",
+                    value: s,
+                    range,
+                });
             }
         }
     }
@@ -305,11 +387,19 @@ mod tests {
     use crate::testing::Noise;
 
     /// Great circles of the unit sphere through given points: ribbons laid on a ball.
-    fn arc(from: DVec3, towards: DVec3, length: f64, noise: &mut Noise, sigma: f64) -> SpatialRibbon {
+    fn arc(
+        from: DVec3,
+        towards: DVec3,
+        length: f64,
+        noise: &mut Noise,
+        sigma: f64,
+    ) -> SpatialRibbon {
         let across = (towards - from * from.dot(towards)).normalize();
         let s: Vec<f64> = (0..24).map(|i| length * f64::from(i) / 23.0).collect();
-        let tangents: Vec<DVec3> =
-            s.iter().map(|s| across * s.cos() - from * s.sin() + noise.gaussian_vector() * sigma).collect();
+        let tangents: Vec<DVec3> = s
+            .iter()
+            .map(|s| across * s.cos() - from * s.sin() + noise.gaussian_vector() * sigma)
+            .collect();
         SpatialRibbon::new(&s, &tangents).unwrap()
     }
 
@@ -318,21 +408,33 @@ mod tests {
         let mut noise = Noise::new(9);
         let start = |k: usize| {
             let (sin, cos) = (0.4 * k as f64 - 0.4).sin_cos();
-            (DVec3::new(cos, sin, -0.6).normalize(), DVec3::new(cos, sin, 0.6).normalize())
+            (
+                DVec3::new(cos, sin, -0.6).normalize(),
+                DVec3::new(cos, sin, 0.6).normalize(),
+            )
         };
         let low = |k: usize| {
             let h = 0.35 * k as f64 - 0.35;
-            (DVec3::new(1.0, -0.7, h).normalize(), DVec3::new(1.0, 0.7, h).normalize())
+            (
+                DVec3::new(1.0, -0.7, h).normalize(),
+                DVec3::new(1.0, 0.7, h).normalize(),
+            )
         };
         let lines: Vec<(DVec3, DVec3)> = (0..3).map(start).chain((0..3).map(low)).collect();
-        let ribbons = lines.iter().map(|(a, b)| arc(*a, *b, a.angle_between(*b), &mut noise, sigma)).collect();
+        let ribbons = lines
+            .iter()
+            .map(|(a, b)| arc(*a, *b, a.angle_between(*b), &mut noise, sigma))
+            .collect();
         let mut crossings = Vec::new();
         for i in 0..3 {
             for j in 3..6 {
                 let normal = |k: usize| lines[k].0.cross(lines[k].1);
                 let meet = normal(i).cross(normal(j)).normalize();
                 let meet = if meet.x < 0.0 { -meet } else { meet };
-                crossings.push(Crossing { ribbons: [i, j], s: [i, j].map(|k| lines[k].0.angle_between(meet)) });
+                crossings.push(Crossing {
+                    ribbons: [i, j],
+                    s: [i, j].map(|k| lines[k].0.angle_between(meet)),
+                });
             }
         }
         RibbonNetwork::new(ribbons, crossings)
@@ -348,7 +450,13 @@ mod tests {
         assert!(exact.gap_before() < 1e-5 && exact.largest_turn() < 1e-4);
         let (corner, sideways) = exact.corner(4).unwrap();
         // The middle crossing lies on the ball of radius one: both ribbons bend towards its centre.
-        assert!(corner.curvatures().iter().all(|k| (k.abs() - 1.0).abs() < 1e-3), "{corner:?}");
+        assert!(
+            corner
+                .curvatures()
+                .iter()
+                .all(|k| (k.abs() - 1.0).abs() < 1e-3),
+            "{corner:?}"
+        );
         assert!(sideways < 1e-3);
     }
 
@@ -356,7 +464,8 @@ mod tests {
     #[test]
     fn the_correction_is_stationary() {
         let network = ball(0.01).unwrap();
-        let again = RibbonNetwork::new(network.ribbons().to_vec(), network.crossings().to_vec()).unwrap();
+        let again =
+            RibbonNetwork::new(network.ribbons().to_vec(), network.crossings().to_vec()).unwrap();
         assert!(again.largest_turn() < 1e-9);
     }
 
@@ -364,16 +473,38 @@ mod tests {
     fn bad_networks_are_refused() {
         let mut noise = Noise::new(1);
         let ribbon = || arc(DVec3::X, DVec3::Y, 1.0, &mut Noise::new(1), 0.0);
-        let crossing = |a, b, s| Crossing { ribbons: [a, b], s: [s, s] };
-        let new = |n: usize, crossings| RibbonNetwork::new((0..n).map(|_| ribbon()).collect(), crossings);
+        let crossing = |a, b, s| Crossing {
+            ribbons: [a, b],
+            s: [s, s],
+        };
+        let new =
+            |n: usize, crossings| RibbonNetwork::new((0..n).map(|_| ribbon()).collect(), crossings);
         assert!(matches!(new(2, vec![]), Err(Error::TooFew { .. })));
-        assert!(matches!(new(3, vec![crossing(0, 1, 0.5)]), Err(Error::Disconnected { ribbon: 2 })));
-        assert!(matches!(new(2, vec![crossing(0, 5, 0.5)]), Err(Error::OutOfRange { .. })));
-        assert!(matches!(new(2, vec![crossing(1, 1, 0.5)]), Err(Error::OutOfRange { .. })));
-        assert!(matches!(new(2, vec![crossing(0, 1, f64::NAN)]), Err(Error::OutOfRange { .. })));
+        assert!(matches!(
+            new(3, vec![crossing(0, 1, 0.5)]),
+            Err(Error::Disconnected { ribbon: 2 })
+        ));
+        assert!(matches!(
+            new(2, vec![crossing(0, 5, 0.5)]),
+            Err(Error::OutOfRange { .. })
+        ));
+        assert!(matches!(
+            new(2, vec![crossing(1, 1, 0.5)]),
+            Err(Error::OutOfRange { .. })
+        ));
+        assert!(matches!(
+            new(2, vec![crossing(0, 1, f64::NAN)]),
+            Err(Error::OutOfRange { .. })
+        ));
         let _ = noise.uniform();
         // Two ribbons of length 1 cannot meet at starts and ends if one is told to be half as long between them.
-        let contradiction = vec![crossing(0, 1, 0.0), Crossing { ribbons: [0, 1], s: [1.0, 0.2] }];
+        let contradiction = vec![
+            crossing(0, 1, 0.0),
+            Crossing {
+                ribbons: [0, 1],
+                s: [1.0, 0.2],
+            },
+        ];
         assert!(new(2, contradiction).is_err());
     }
 }

@@ -50,15 +50,33 @@ impl PlanarRibbon {
     ///
     /// # Errors
     /// As [`PlanarRibbon::new`].
-    pub fn with_accuracy(s: &[f64], angles: &[f64], end: EndCondition, accuracy: f64) -> Result<Self, Error> {
+    pub fn with_accuracy(
+        s: &[f64],
+        angles: &[f64],
+        end: EndCondition,
+        accuracy: f64,
+    ) -> Result<Self, Error> {
         let angle = CubicSpline::new(s, &unwrap_angles(angles)?, end)?;
         Self::from_spline(angle, end, accuracy)
     }
 
-    fn from_spline(angle: CubicSpline<f64>, end: EndCondition, accuracy: f64) -> Result<Self, Error> {
-        let (points, integration_error) =
-            positions(angle.knots(), &|s| DVec2::from_angle(angle.value(s)), accuracy)?;
-        Ok(Self { angle, end, points, accuracy, integration_error })
+    fn from_spline(
+        angle: CubicSpline<f64>,
+        end: EndCondition,
+        accuracy: f64,
+    ) -> Result<Self, Error> {
+        let (points, integration_error) = positions(
+            angle.knots(),
+            &|s| DVec2::from_angle(angle.value(s)),
+            accuracy,
+        )?;
+        Ok(Self {
+            angle,
+            end,
+            points,
+            accuracy,
+            integration_error,
+        })
     }
 
     /// The arc lengths of the data.
@@ -88,7 +106,9 @@ impl PlanarRibbon {
     /// The signed curvature at arc length `s`, one over length.
     #[must_use]
     pub fn curvature(&self, s: f64) -> f64 {
-        self.angle.piece(crate::spline::interval(self.angle.knots(), s)).derivative(s)
+        self.angle
+            .piece(crate::spline::interval(self.angle.knots(), s))
+            .derivative(s)
     }
 
     /// The position at arc length `s`.
@@ -123,9 +143,17 @@ impl PlanarRibbon {
 
 /// The splines that are one at one datum and zero at all others; nothing for knots that are not increasing.
 pub(crate) fn cardinal_splines(knots: &[f64], end: EndCondition) -> Vec<CubicSpline<f64>> {
-    let Ok(system) = SplineSystem::new(knots, end) else { return Vec::new() };
-    let unit = |j: usize| (0..knots.len()).map(|i| if i == j { 1.0 } else { 0.0 }).collect::<Vec<_>>();
-    (0..knots.len()).map(|j| CubicSpline::solve(&system, &unit(j))).collect()
+    let Ok(system) = SplineSystem::new(knots, end) else {
+        return Vec::new();
+    };
+    let unit = |j: usize| {
+        (0..knots.len())
+            .map(|i| if i == j { 1.0 } else { 0.0 })
+            .collect::<Vec<_>>()
+    };
+    (0..knots.len())
+        .map(|j| CubicSpline::solve(&system, &unit(j)))
+        .collect()
 }
 
 /// Adds multiples of a full turn so that neighbours differ by less than half a turn.
@@ -136,7 +164,10 @@ pub(crate) fn unwrap_angles(angles: &[f64]) -> Result<Vec<f64>, Error> {
     let mut unwrapped: Vec<f64> = Vec::with_capacity(angles.len());
     for (index, &angle) in angles.iter().enumerate() {
         if !angle.is_finite() {
-            return Err(Error::NonFinite { what: "angle", index });
+            return Err(Error::NonFinite {
+                what: "angle",
+                index,
+            });
         }
         let Some(&before) = unwrapped.last() else {
             unwrapped.push(angle);
@@ -181,7 +212,11 @@ impl ClosedPlanarRibbon {
         wrapped.extend(angles.first());
         let mut values = unwrap_angles(&wrapped)?;
         if values.len() != knots.len() {
-            return Err(Error::LengthMismatch { what: "angles", expected: s.len(), got: angles.len() });
+            return Err(Error::LengthMismatch {
+                what: "angles",
+                expected: s.len(),
+                got: angles.len(),
+            });
         }
         let turns = ((values[s.len()] - values[0]) / TAU).round();
         let turning_rate = turns * TAU / length;
@@ -222,12 +257,18 @@ pub(crate) const CLOSED: f64 = 1e-12;
 /// Newton steps allowed for closing; quadratic convergence needs about five.
 pub(crate) const CLOSING_STEPS: usize = 30;
 
-fn close(knots: Vec<f64>, mut values: Vec<f64>, turning_rate: f64) -> Result<ClosedPlanarRibbon, Error> {
+fn close(
+    knots: Vec<f64>,
+    mut values: Vec<f64>,
+    turning_rate: f64,
+) -> Result<ClosedPlanarRibbon, Error> {
     let n = knots.len() - 1;
     let length = knots[n] - knots[0];
     let cardinals: Vec<CubicSpline<f64>> = (0..n)
         .map(|j| {
-            let unit: Vec<f64> = (0..=n).map(|i| if i % n == j { 1.0 } else { 0.0 }).collect();
+            let unit: Vec<f64> = (0..=n)
+                .map(|i| if i % n == j { 1.0 } else { 0.0 })
+                .collect();
             CubicSpline::periodic(&knots, &unit)
         })
         .collect::<Result<_, _>>()?;
@@ -240,7 +281,10 @@ fn close(knots: Vec<f64>, mut values: Vec<f64>, turning_rate: f64) -> Result<Clo
         let gap = points[n];
         let first_gap = *closing_error.get_or_insert(gap);
         if gap.length() <= CLOSED * length {
-            let largest_adjustment = values.iter().zip(&measured).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+            let largest_adjustment = values
+                .iter()
+                .zip(&measured)
+                .fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
             return Ok(ClosedPlanarRibbon {
                 angle: spline,
                 turning_rate,
@@ -253,10 +297,15 @@ fn close(knots: Vec<f64>, mut values: Vec<f64>, turning_rate: f64) -> Result<Clo
             .iter()
             .map(|cardinal| {
                 let speed = |s: f64| direction(s).perp() * cardinal.value(s);
-                knots.windows(2).map(|pair| crate::integrate::gauss_step(&speed, pair[0], pair[1])).sum()
+                knots
+                    .windows(2)
+                    .map(|pair| crate::integrate::gauss_step(&speed, pair[0], pair[1]))
+                    .sum()
             })
             .collect();
-        let gram = slopes.iter().fold(DMat2::ZERO, |sum, j| sum + DMat2::from_cols(*j * j.x, *j * j.y));
+        let gram = slopes.iter().fold(DMat2::ZERO, |sum, j| {
+            sum + DMat2::from_cols(*j * j.x, *j * j.y)
+        });
         // A straight ribbon has no first-order way to close: the determinant is that of its sagitta.
         if gram.determinant() <= 1e-12 * length.powi(4) {
             break;
@@ -267,7 +316,10 @@ fn close(knots: Vec<f64>, mut values: Vec<f64>, turning_rate: f64) -> Result<Clo
         }
         values[n] = values[0];
     }
-    Err(Error::NoConvergence { what: "closing the ribbon", steps: CLOSING_STEPS })
+    Err(Error::NoConvergence {
+        what: "closing the ribbon",
+        steps: CLOSING_STEPS,
+    })
 }
 
 #[cfg(test)]
@@ -276,23 +328,33 @@ mod tests {
 
     fn test_curve(n: usize, length: f64) -> (Vec<f64>, Vec<f64>) {
         let s: Vec<f64> = (0..=n).map(|i| length * i as f64 / n as f64).collect();
-        let alpha = s.iter().map(|s| 0.3 + 1.4 * (1.7 * s).sin() + 0.4 * s * s / 3.0).collect();
+        let alpha = s
+            .iter()
+            .map(|s| 0.3 + 1.4 * (1.7 * s).sin() + 0.4 * s * s / 3.0)
+            .collect();
         (s, alpha)
     }
 
     fn error(n: usize, end: EndCondition) -> f64 {
         let (s, alpha) = test_curve(n, 3.0);
         let (_, fine) = test_curve(4096, 3.0);
-        let exact = PlanarRibbon::new(&test_curve(4096, 3.0).0, &fine, EndCondition::NotAKnot).unwrap();
+        let exact =
+            PlanarRibbon::new(&test_curve(4096, 3.0).0, &fine, EndCondition::NotAKnot).unwrap();
         let ribbon = PlanarRibbon::new(&s, &alpha, end).unwrap();
-        (0..=n).map(|i| (ribbon.points()[i] - exact.points()[i * 4096 / n]).length()).fold(0.0, f64::max)
+        (0..=n)
+            .map(|i| (ribbon.points()[i] - exact.points()[i * 4096 / n]).length())
+            .fold(0.0, f64::max)
     }
 
     /// The orders of the specification: 4 with not-a-knot ends, 3 with natural ones.
     #[test]
     fn order_of_convergence() {
         let order = |end| (error(64, end) / error(128, end)).log2();
-        assert!(order(EndCondition::NotAKnot) > 3.9, "{}", order(EndCondition::NotAKnot));
+        assert!(
+            order(EndCondition::NotAKnot) > 3.9,
+            "{}",
+            order(EndCondition::NotAKnot)
+        );
         let natural = order(EndCondition::Natural);
         assert!((2.8..3.3).contains(&natural), "{natural}");
     }
@@ -321,36 +383,66 @@ mod tests {
         let runs = 4000;
         for _ in 0..runs {
             let noisy: Vec<f64> = alpha.iter().map(|a| a + sigma * noise.gaussian()).collect();
-            let end = PlanarRibbon::new(&s, &noisy, EndCondition::NotAKnot).unwrap().points()[16] - ribbon.points()[16];
+            let end = PlanarRibbon::new(&s, &noisy, EndCondition::NotAKnot)
+                .unwrap()
+                .points()[16]
+                - ribbon.points()[16];
             xx += end.x * end.x / f64::from(runs);
             yy += end.y * end.y / f64::from(runs);
         }
         // A variance from 4,000 draws has a relative standard error of 2.2 %: four of them.
-        assert!((xx / predicted.x_axis.x - 1.0).abs() < 0.09, "{xx} {predicted}");
-        assert!((yy / predicted.y_axis.y - 1.0).abs() < 0.09, "{yy} {predicted}");
+        assert!(
+            (xx / predicted.x_axis.x - 1.0).abs() < 0.09,
+            "{xx} {predicted}"
+        );
+        assert!(
+            (yy / predicted.y_axis.y - 1.0).abs() < 0.09,
+            "{yy} {predicted}"
+        );
     }
 
     #[test]
     fn a_noisy_ellipse_closes_with_its_length() {
         let n = 40;
         let s: Vec<f64> = (0..n).map(|i| 6.0 * f64::from(i) / f64::from(n)).collect();
-        let alpha: Vec<f64> = s.iter().map(|s| s * TAU / 6.0 + 0.3 * (2.0 * s * TAU / 6.0).sin() + 0.02 * (17.0 * s).cos()).collect();
+        let alpha: Vec<f64> = s
+            .iter()
+            .map(|s| s * TAU / 6.0 + 0.3 * (2.0 * s * TAU / 6.0).sin() + 0.02 * (17.0 * s).cos())
+            .collect();
         let ribbon = ClosedPlanarRibbon::new(&s, &alpha, 6.0).unwrap();
         assert!(ribbon.closing_error().length() > 1e-4);
         assert!((ribbon.points()[n as usize]).length() < 6e-12);
         assert!(ribbon.largest_adjustment() < 0.05);
         let straight = ClosedPlanarRibbon::new(&s, &vec![0.2; n as usize], 6.0);
-        assert!(matches!(straight, Err(Error::NoConvergence { .. })), "{straight:?}");
+        assert!(
+            matches!(straight, Err(Error::NoConvergence { .. })),
+            "{straight:?}"
+        );
     }
 
     #[test]
     fn hostile_data() {
         let end = EndCondition::NotAKnot;
-        assert!(matches!(PlanarRibbon::new(&[0.0, 1.0], &[0.0, f64::INFINITY], end), Err(Error::NonFinite { index: 1, .. })));
-        assert!(matches!(PlanarRibbon::new(&[0.0, 1.0], &[0.0, PI], end), Err(Error::AmbiguousTurn { index: 1, .. })));
-        assert!(matches!(PlanarRibbon::new(&[0.0, 1.0], &[0.0], end), Err(Error::LengthMismatch { .. })));
-        assert!(matches!(PlanarRibbon::new(&[], &[], end), Err(Error::TooFew { .. })));
-        assert!(matches!(PlanarRibbon::new(&[0.0, f64::MAX, f64::INFINITY], &[0.0; 3], end), Err(Error::NonFinite { .. })));
+        assert!(matches!(
+            PlanarRibbon::new(&[0.0, 1.0], &[0.0, f64::INFINITY], end),
+            Err(Error::NonFinite { index: 1, .. })
+        ));
+        assert!(matches!(
+            PlanarRibbon::new(&[0.0, 1.0], &[0.0, PI], end),
+            Err(Error::AmbiguousTurn { index: 1, .. })
+        ));
+        assert!(matches!(
+            PlanarRibbon::new(&[0.0, 1.0], &[0.0], end),
+            Err(Error::LengthMismatch { .. })
+        ));
+        assert!(matches!(
+            PlanarRibbon::new(&[], &[], end),
+            Err(Error::TooFew { .. })
+        ));
+        assert!(matches!(
+            PlanarRibbon::new(&[0.0, f64::MAX, f64::INFINITY], &[0.0; 3], end),
+            Err(Error::NonFinite { .. })
+        ));
         assert!(ClosedPlanarRibbon::new(&[0.0, 1.0], &[0.0, 0.1], 0.5).is_err());
         let ribbon = PlanarRibbon::new(&[0.0, 1.0], &[0.0, 1.0], end).unwrap();
         assert!(ribbon.point(f64::NAN).is_err());

@@ -22,7 +22,10 @@ pub(crate) fn gauss(n: usize) -> Vec<(f64, f64)> {
             let (mut before, mut value) = (1.0, x);
             for k in 2..=n {
                 let k = k as f64;
-                (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
+                (before, value) = (
+                    value,
+                    ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k,
+                );
             }
             slope = n as f64 * (x * value - before) / (x * x - 1.0);
             x -= value / slope;
@@ -55,11 +58,17 @@ mod tests {
             let rule = gauss(n);
             for degree in 0..2 * n {
                 let sum: f64 = rule.iter().map(|(x, w)| w * x.powi(degree as i32)).sum();
-                assert!((sum - 1.0 / (degree as f64 + 1.0)).abs() < 4e-15, "{n} {degree} {sum}");
+                assert!(
+                    (sum - 1.0 / (degree as f64 + 1.0)).abs() < 4e-15,
+                    "{n} {degree} {sum}"
+                );
             }
         }
         for ((x, w), (y, z)) in SIX.into_iter().zip(gauss(6)) {
-            assert!((x - y).abs() < 4e-16 && (w - z).abs() < 4e-16, "{x} {y} {w} {z}");
+            assert!(
+                (x - y).abs() < 4e-16 && (w - z).abs() < 4e-16,
+                "{x} {y} {w} {z}"
+            );
         }
     }
 
@@ -70,7 +79,10 @@ mod tests {
         let rule = triangle(7);
         for i in 0..=6 {
             for j in 0..=6 {
-                let sum: f64 = rule.iter().map(|(l, w)| w * l[1].powi(i) * l[2].powi(j)).sum();
+                let sum: f64 = rule
+                    .iter()
+                    .map(|(l, w)| w * l[1].powi(i) * l[2].powi(j))
+                    .sum();
                 let exact = factorial(i) * factorial(j) / factorial(i + j + 2);
                 assert!((sum - exact).abs() < 1e-15, "{i} {j}");
             }

@@ -31,14 +31,20 @@ impl SampledCurve {
     /// leave a span empty.
     pub fn fit(points: &[DVec3], spans: usize) -> Result<Self, Error> {
         if let Some(index) = points.iter().position(|p| !p.is_finite()) {
-            return Err(Error::NonFinite { what: "point", index });
+            return Err(Error::NonFinite {
+                what: "point",
+                index,
+            });
         }
         let mut parameters = vec![0.0];
         let mut total = 0.0;
         for (index, pair) in points.windows(2).enumerate() {
             let step = pair[0].distance(pair[1]);
             if step == 0.0 {
-                return Err(Error::ZeroVector { what: "step to the point", index: index + 1 });
+                return Err(Error::ZeroVector {
+                    what: "step to the point",
+                    index: index + 1,
+                });
             }
             total += step;
             parameters.push(total);
@@ -54,31 +60,61 @@ impl SampledCurve {
     ///
     /// # Errors
     /// As [`SampledCurve::fit`]; [`Error::LengthMismatch`].
-    pub fn fit_with_tangents(points: &[DVec3], tangents: &[DVec3], spans: usize) -> Result<Self, Error> {
+    pub fn fit_with_tangents(
+        points: &[DVec3],
+        tangents: &[DVec3],
+        spans: usize,
+    ) -> Result<Self, Error> {
         if tangents.len() != points.len() {
-            return Err(Error::LengthMismatch { what: "tangents", expected: points.len(), got: tangents.len() });
+            return Err(Error::LengthMismatch {
+                what: "tangents",
+                expected: points.len(),
+                got: tangents.len(),
+            });
         }
         let mut units = Vec::with_capacity(tangents.len());
         for (index, tangent) in tangents.iter().enumerate() {
             if !tangent.is_finite() {
-                return Err(Error::NonFinite { what: "tangent", index });
+                return Err(Error::NonFinite {
+                    what: "tangent",
+                    index,
+                });
             }
-            units.push(tangent.try_normalize().ok_or(Error::ZeroVector { what: "tangent", index })?);
+            units.push(tangent.try_normalize().ok_or(Error::ZeroVector {
+                what: "tangent",
+                index,
+            })?);
         }
         let rough = Self::fit(points, spans)?;
-        let length: f64 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        let length: f64 = points
+            .windows(2)
+            .map(|pair| pair[0].distance(pair[1]))
+            .sum();
         let velocities: Vec<DVec3> = units.iter().map(|t| *t * length).collect();
         Self::fit_at(rough.parameters, points, Some(&velocities), spans)
     }
 
-    fn fit_at(parameters: Vec<f64>, values: &[DVec3], velocities: Option<&[DVec3]>, spans: usize) -> Result<Self, Error> {
+    fn fit_at(
+        parameters: Vec<f64>,
+        values: &[DVec3],
+        velocities: Option<&[DVec3]>,
+        spans: usize,
+    ) -> Result<Self, Error> {
         if spans == 0 {
-            return Err(Error::OutOfRange { what: "number of spans", value: 0.0, range: [1.0, f64::INFINITY] });
+            return Err(Error::OutOfRange {
+                what: "number of spans",
+                value: 0.0,
+                range: [1.0, f64::INFINITY],
+            });
         }
         let count = spans + DEGREE;
         let conditions = values.len() * if velocities.is_some() { 2 } else { 1 };
         if values.len() < 2 || conditions < count {
-            return Err(Error::TooFew { what: "points", needed: count.max(2), got: values.len() });
+            return Err(Error::TooFew {
+                what: "points",
+                needed: count.max(2),
+                got: values.len(),
+            });
         }
         let mut matrix = DMatrix::<f64>::zeros(conditions, count);
         let mut right = DMatrix::<f64>::zeros(conditions, 3);
@@ -102,13 +138,26 @@ impl SampledCurve {
             }
         }
         let qr = matrix.clone().qr();
-        let solution = qr.r().solve_upper_triangular(&(qr.q().transpose() * &right)).ok_or(Error::DegenerateEnergy)?;
-        let coefficients: Vec<DVec3> = (0..count).map(|k| DVec3::new(solution[(k, 0)], solution[(k, 1)], solution[(k, 2)])).collect();
+        let solution = qr
+            .r()
+            .solve_upper_triangular(&(qr.q().transpose() * &right))
+            .ok_or(Error::DegenerateEnergy)?;
+        let coefficients: Vec<DVec3> = (0..count)
+            .map(|k| DVec3::new(solution[(k, 0)], solution[(k, 1)], solution[(k, 2)]))
+            .collect();
         if !coefficients.iter().all(|c| c.is_finite()) {
             return Err(Error::DegenerateEnergy);
         }
-        let mut curve = Self { coefficients, parameters, residual: 0.0 };
-        let distances = curve.parameters.iter().zip(values).map(|(t, value)| curve.point(*t).distance(*value));
+        let mut curve = Self {
+            coefficients,
+            parameters,
+            residual: 0.0,
+        };
+        let distances = curve
+            .parameters
+            .iter()
+            .zip(values)
+            .map(|(t, value)| curve.point(*t).distance(*value));
         curve.residual = distances.fold(0.0, f64::max);
         Ok(curve)
     }
@@ -153,19 +202,36 @@ impl SampledCurve {
         }
         // Fitting the unscaled binormals weighs each direction by its curvature.
         let smooth = Self::fit_at(self.parameters.clone(), &binormals, None, spans)?;
-        GeodesicStrip::with_normal(self.clone(), Sideways { across: smooth, along: self.clone() })
+        GeodesicStrip::with_normal(
+            self.clone(),
+            Sideways {
+                across: smooth,
+                along: self.clone(),
+            },
+        )
     }
 
     /// The strip of this curve with surface normals known at its points, fitted by a spline with `spans` spans.
     ///
     /// # Errors
     /// [`Error::LengthMismatch`]; those of [`SampledCurve::fit`] and [`GeodesicStrip::with_normal`].
-    pub fn strip_with_normals(&self, normals: &[DVec3], spans: usize) -> Result<GeodesicStrip, Error> {
+    pub fn strip_with_normals(
+        &self,
+        normals: &[DVec3],
+        spans: usize,
+    ) -> Result<GeodesicStrip, Error> {
         if normals.len() != self.parameters.len() {
-            return Err(Error::LengthMismatch { what: "normals", expected: self.parameters.len(), got: normals.len() });
+            return Err(Error::LengthMismatch {
+                what: "normals",
+                expected: self.parameters.len(),
+                got: normals.len(),
+            });
         }
         if let Some(index) = normals.iter().position(|n| !n.is_finite()) {
-            return Err(Error::NonFinite { what: "normal", index });
+            return Err(Error::NonFinite {
+                what: "normal",
+                index,
+            });
         }
         let normal = Self::fit_at(self.parameters.clone(), normals, None, spans)?;
         GeodesicStrip::with_normal(self.clone(), normal)
@@ -176,7 +242,11 @@ impl Curve for SampledCurve {
     fn series(&self, t: f64) -> VectorSeries {
         let (first, basis) = uniform_basis(t, self.spans());
         VectorSeries(from_fn(|order| {
-            basis.iter().zip(&self.coefficients[first..]).map(|(b, c)| *c * b.0[order]).sum()
+            basis
+                .iter()
+                .zip(&self.coefficients[first..])
+                .map(|(b, c)| *c * b.0[order])
+                .sum()
         }))
     }
 }
@@ -190,7 +260,10 @@ struct Sideways {
 
 impl Curve for Sideways {
     fn series(&self, t: f64) -> VectorSeries {
-        self.along.series(t).derivative().cross(&self.across.series(t))
+        self.along
+            .series(t)
+            .derivative()
+            .cross(&self.across.series(t))
     }
 }
 
@@ -227,17 +300,33 @@ mod tests {
         let (_, basis) = uniform_basis(0.37, 4);
         let sum = basis.iter().fold(Series::constant(0.0), |sum, b| sum + *b);
         assert!((sum.value() - 1.0).abs() < 1e-15 && sum.0[1..].iter().all(|c| c.abs() < 1e-11));
-        let curve = SampledCurve { coefficients: (0..9).map(|i| DVec3::new(f64::from(i * i % 5), f64::from(i), 1.0)).collect(), parameters: vec![], residual: 0.0 };
+        let curve = SampledCurve {
+            coefficients: (0..9)
+                .map(|i| DVec3::new(f64::from(i * i % 5), f64::from(i), 1.0))
+                .collect(),
+            parameters: vec![],
+            residual: 0.0,
+        };
         let (left, right) = (curve.series(0.5 - 1e-12), curve.series(0.5));
         for order in 0..5 {
             let scale = 4f64.powi(order);
-            assert!((left.0[order as usize] - right.0[order as usize]).length() < 1e-9 * scale, "{order}");
+            assert!(
+                (left.0[order as usize] - right.0[order as usize]).length() < 1e-9 * scale,
+                "{order}"
+            );
         }
     }
 
     fn helix(n: usize) -> (Vec<DVec3>, Vec<DVec3>) {
         let points = (0..=n).map(|i| 2.0 * i as f64 / n as f64);
-        points.map(|t| (DVec3::new(t.cos(), t.sin(), 0.4 * t), DVec3::new(-t.sin(), t.cos(), 0.4))).unzip()
+        points
+            .map(|t| {
+                (
+                    DVec3::new(t.cos(), t.sin(), 0.4 * t),
+                    DVec3::new(-t.sin(), t.cos(), 0.4),
+                )
+            })
+            .unzip()
     }
 
     #[test]
@@ -245,13 +334,21 @@ mod tests {
         let (points, tangents) = helix(200);
         let residuals = [4, 8].map(|spans| SampledCurve::fit(&points, spans).unwrap().residual());
         assert!((residuals[0] / residuals[1]).log2() > 4.5, "{residuals:?}");
-        for curve in [SampledCurve::fit(&points, 8).unwrap(), SampledCurve::fit_with_tangents(&points, &tangents, 8).unwrap()] {
+        for curve in [
+            SampledCurve::fit(&points, 8).unwrap(),
+            SampledCurve::fit_with_tangents(&points, &tangents, 8).unwrap(),
+        ] {
             let strip = curve.strip(6).unwrap();
-            let worst = (0..=50).map(|i| strip.geodesic_curvature(f64::from(i) / 50.0).abs()).fold(0.0, f64::max);
+            let worst = (0..=50)
+                .map(|i| strip.geodesic_curvature(f64::from(i) / 50.0).abs())
+                .fold(0.0, f64::max);
             assert!(worst < 1e-4, "{worst}");
         }
         let normals: Vec<DVec3> = points.iter().map(|p| DVec3::new(p.x, p.y, 0.0)).collect();
-        let strip = SampledCurve::fit(&points, 8).unwrap().strip_with_normals(&normals, 8).unwrap();
+        let strip = SampledCurve::fit(&points, 8)
+            .unwrap()
+            .strip_with_normals(&normals, 8)
+            .unwrap();
         assert!(strip.geodesic_curvature(0.4).abs() < 1e-4);
     }
 
@@ -260,20 +357,40 @@ mod tests {
     fn smoothing_tames_noise() {
         let mut noise = Noise::new(4);
         let (points, _) = helix(400);
-        let noisy: Vec<DVec3> = points.iter().map(|p| *p + noise.gaussian_vector() * 1e-3).collect();
+        let noisy: Vec<DVec3> = points
+            .iter()
+            .map(|p| *p + noise.gaussian_vector() * 1e-3)
+            .collect();
         let strip = SampledCurve::fit(&noisy, 3).unwrap().strip(2).unwrap();
-        let worst = (1..10).map(|i| strip.geodesic_curvature(f64::from(i) / 10.0).abs()).fold(0.0, f64::max);
+        let worst = (1..10)
+            .map(|i| strip.geodesic_curvature(f64::from(i) / 10.0).abs())
+            .fold(0.0, f64::max);
         assert!(worst < 0.2, "{worst}");
     }
 
     #[test]
     fn hostile_points() {
         let (points, tangents) = helix(20);
-        assert!(matches!(SampledCurve::fit(&points[..4], 2), Err(Error::TooFew { .. })));
-        assert!(matches!(SampledCurve::fit(&points, 0), Err(Error::OutOfRange { .. })));
-        assert!(matches!(SampledCurve::fit(&[DVec3::X; 20], 2), Err(Error::ZeroVector { .. })));
-        assert!(matches!(SampledCurve::fit(&[DVec3::NAN; 20], 2), Err(Error::NonFinite { .. })));
-        assert!(matches!(SampledCurve::fit_with_tangents(&points, &tangents[1..], 2), Err(Error::LengthMismatch { .. })));
+        assert!(matches!(
+            SampledCurve::fit(&points[..4], 2),
+            Err(Error::TooFew { .. })
+        ));
+        assert!(matches!(
+            SampledCurve::fit(&points, 0),
+            Err(Error::OutOfRange { .. })
+        ));
+        assert!(matches!(
+            SampledCurve::fit(&[DVec3::X; 20], 2),
+            Err(Error::ZeroVector { .. })
+        ));
+        assert!(matches!(
+            SampledCurve::fit(&[DVec3::NAN; 20], 2),
+            Err(Error::NonFinite { .. })
+        ));
+        assert!(matches!(
+            SampledCurve::fit_with_tangents(&points, &tangents[1..], 2),
+            Err(Error::LengthMismatch { .. })
+        ));
         let line: Vec<DVec3> = (0..20).map(|i| DVec3::X * f64::from(i)).collect();
         let straight = SampledCurve::fit(&line, 2).unwrap().strip(2);
         // The binormals of a straight line are rounding; whatever comes of them must not be NaN or a panic.

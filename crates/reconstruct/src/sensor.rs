@@ -33,7 +33,12 @@ pub struct Calibration {
 impl Default for Calibration {
     /// Readings that are body vectors of unit magnitude already, with no limit.
     fn default() -> Self {
-        Self { offset: DVec3::ZERO, matrix: DMat3::IDENTITY, full_scale: f64::INFINITY, magnitude: 1.0 }
+        Self {
+            offset: DVec3::ZERO,
+            matrix: DMat3::IDENTITY,
+            full_scale: f64::INFINITY,
+            magnitude: 1.0,
+        }
     }
 }
 
@@ -55,38 +60,73 @@ impl Calibration {
         full_scale: f64,
         magnitude: f64,
     ) -> Result<Self, Error> {
-        if !(offset.is_finite() && gain.is_finite() && misalignment.is_finite() && magnitude.is_finite()) {
-            return Err(Error::NonFinite { what: "calibration", index: 0 });
+        if !(offset.is_finite()
+            && gain.is_finite()
+            && misalignment.is_finite()
+            && magnitude.is_finite())
+        {
+            return Err(Error::NonFinite {
+                what: "calibration",
+                index: 0,
+            });
         }
         let positive = |what, value: f64| {
-            if value > 0.0 { Ok(()) } else { Err(Error::OutOfRange { what, value, range: [0.0, f64::INFINITY] }) }
+            if value > 0.0 {
+                Ok(())
+            } else {
+                Err(Error::OutOfRange {
+                    what,
+                    value,
+                    range: [0.0, f64::INFINITY],
+                })
+            }
         };
         positive("gain", gain.min_element())?;
         positive("full scale", full_scale)?;
         positive("field magnitude", magnitude)?;
         // Axes within a cone of 90 degrees of each other have a determinant well above this.
-        positive("misalignment determinant", misalignment.determinant().abs() - 1e-6)?;
+        positive(
+            "misalignment determinant",
+            misalignment.determinant().abs() - 1e-6,
+        )?;
         let matrix = (misalignment * DMat3::from_diagonal(gain)).inverse();
-        Ok(Self { offset, matrix, full_scale, magnitude })
+        Ok(Self {
+            offset,
+            matrix,
+            full_scale,
+            magnitude,
+        })
     }
 
     /// The unit body vector of a raw reading, or what is wrong with it. `axes` is how many coordinates the
     /// sensor has; with two, the third of the result is left open (zero) and the vector is not normalised.
     pub(crate) fn direction(&self, raw: DVec3, axes: usize) -> Result<DVec3, ReadingFault> {
-        let raw = if axes == 2 { DVec3::new(raw.x, raw.y, self.offset.z) } else { raw };
+        let raw = if axes == 2 {
+            DVec3::new(raw.x, raw.y, self.offset.z)
+        } else {
+            raw
+        };
         if !raw.is_finite() {
             return Err(ReadingFault::NonFinite);
         }
         for (axis, value) in raw.to_array().into_iter().take(axes).enumerate() {
             if value.abs() >= self.full_scale {
-                return Err(ReadingFault::Saturated { axis, value, limit: self.full_scale });
+                return Err(ReadingFault::Saturated {
+                    axis,
+                    value,
+                    limit: self.full_scale,
+                });
             }
         }
         let body = self.matrix * (raw - self.offset) / self.magnitude;
         let magnitude = body.length();
         if axes == 2 {
             let body = DVec3::new(body.x, body.y, 0.0);
-            return if body.length() <= LARGEST_MAGNITUDE { Ok(body) } else { Err(ReadingFault::FieldLost { magnitude }) };
+            return if body.length() <= LARGEST_MAGNITUDE {
+                Ok(body)
+            } else {
+                Err(ReadingFault::FieldLost { magnitude })
+            };
         }
         if (SMALLEST_MAGNITUDE..=LARGEST_MAGNITUDE).contains(&magnitude) {
             Ok(body / magnitude)
@@ -144,17 +184,28 @@ impl Sensor {
     /// A calibrated sensor, whose readings are body vectors of unit magnitude.
     #[must_use]
     pub fn new(s: f64, kind: SensorKind) -> Self {
-        Self { s, kind, calibration: Calibration::default() }
+        Self {
+            s,
+            kind,
+            calibration: Calibration::default(),
+        }
     }
 
     /// The same sensor with a calibration.
     #[must_use]
     pub fn with_calibration(self, calibration: Calibration) -> Self {
-        Self { calibration, ..self }
+        Self {
+            calibration,
+            ..self
+        }
     }
 
     pub(crate) fn axes(&self) -> usize {
-        if self.kind == SensorKind::MagnetometerTwoAxis { 2 } else { 3 }
+        if self.kind == SensorKind::MagnetometerTwoAxis {
+            2
+        } else {
+            3
+        }
     }
 
     pub(crate) fn is_magnetometer(&self) -> bool {
@@ -182,7 +233,10 @@ impl WorldFields {
             }
             v.try_normalize().ok_or(Error::ZeroVector { what, index })
         };
-        let (up, magnetic) = (unit("world direction", 0, up)?, unit("world direction", 1, magnetic)?);
+        let (up, magnetic) = (
+            unit("world direction", 0, up)?,
+            unit("world direction", 1, magnetic)?,
+        );
         let sine = up.cross(magnetic).length();
         if sine < PARALLEL_FIELDS {
             return Err(Error::ParallelFields { s: 0.0, sine });
@@ -233,7 +287,9 @@ pub fn inclinations(readings: &[f64]) -> Result<Vec<f64>, Error> {
                 return Err(fault(ReadingFault::NonFinite));
             }
             if value.abs() > 1.0 + OVERSHOOT {
-                return Err(fault(ReadingFault::FieldLost { magnitude: value.abs() }));
+                return Err(fault(ReadingFault::FieldLost {
+                    magnitude: value.abs(),
+                }));
             }
             Ok(value.clamp(-1.0, 1.0).asin())
         })
@@ -251,7 +307,9 @@ pub fn inclinations(readings: &[f64]) -> Result<Vec<f64>, Error> {
 /// As [`inclinations`].
 pub fn inclinations_past_vertical(readings: &[f64]) -> Result<Vec<f64>, Error> {
     let principal = inclinations(readings)?;
-    let Some(&first) = principal.first() else { return Ok(principal) };
+    let Some(&first) = principal.first() else {
+        return Ok(principal);
+    };
     // Candidates for a sensor, unwrapped next to the angle before it.
     let near = |angle: f64, before: f64| angle - 2.0 * PI * ((angle - before) / (2.0 * PI)).round();
     // The best chain that ends on each branch of the last two sensors: (cost, angles).
@@ -262,7 +320,11 @@ pub fn inclinations_past_vertical(readings: &[f64]) -> Result<Vec<f64>, Error> {
             let last = chain[i - 1];
             for branch in [angle, PI - angle] {
                 let next = near(branch, last);
-                let bend = if i >= 2 { next - 2.0 * last + chain[i - 2] } else { 0.5 * (next - last) };
+                let bend = if i >= 2 {
+                    next - 2.0 * last + chain[i - 2]
+                } else {
+                    0.5 * (next - last)
+                };
                 let mut longer = chain.clone();
                 longer.push(next);
                 extended.push((cost + bend * bend, longer));
@@ -281,7 +343,10 @@ pub fn inclinations_past_vertical(readings: &[f64]) -> Result<Vec<f64>, Error> {
         }
         chains = kept;
     }
-    Ok(chains.into_iter().next().map_or(principal, |(_, chain)| chain))
+    Ok(chains
+        .into_iter()
+        .next()
+        .map_or(principal, |(_, chain)| chain))
 }
 
 #[cfg(test)]
@@ -304,8 +369,14 @@ mod tests {
             calibration.direction(DVec3::new(2500.0, 0.0, 0.0), 3),
             Err(ReadingFault::Saturated { axis: 0, .. })
         ));
-        assert!(matches!(calibration.direction(offset, 3), Err(ReadingFault::FieldLost { .. })));
-        assert!(matches!(calibration.direction(DVec3::NAN, 3), Err(ReadingFault::NonFinite)));
+        assert!(matches!(
+            calibration.direction(offset, 3),
+            Err(ReadingFault::FieldLost { .. })
+        ));
+        assert!(matches!(
+            calibration.direction(DVec3::NAN, 3),
+            Err(ReadingFault::NonFinite)
+        ));
         assert!(Calibration::new(offset, DVec3::ZERO, misalignment, 1.0, 1.0).is_err());
         assert!(Calibration::new(offset, gain, DMat3::ZERO, 1.0, 1.0).is_err());
         assert!(Calibration::new(offset, gain, misalignment, f64::NAN, 1.0).is_err());
@@ -320,15 +391,29 @@ mod tests {
             assert!((a - b).abs() < 1e-7, "{a} {b}");
         }
         let gentle = inclinations(&readings[..8]).unwrap();
-        assert!(gentle.iter().zip(&truth).all(|(a, b)| (a - b).abs() < 1e-12));
-        assert!(matches!(inclinations(&[0.0, 1.2]), Err(Error::Reading { sensor: 1, .. })));
-        assert!(matches!(inclinations(&[f64::NAN]), Err(Error::Reading { sensor: 0, .. })));
+        assert!(
+            gentle
+                .iter()
+                .zip(&truth)
+                .all(|(a, b)| (a - b).abs() < 1e-12)
+        );
+        assert!(matches!(
+            inclinations(&[0.0, 1.2]),
+            Err(Error::Reading { sensor: 1, .. })
+        ));
+        assert!(matches!(
+            inclinations(&[f64::NAN]),
+            Err(Error::Reading { sensor: 0, .. })
+        ));
         assert_eq!(inclinations(&[1.01]).unwrap(), [PI / 2.0]);
     }
 
     #[test]
     fn a_vertical_field_has_no_north() {
-        assert!(matches!(WorldFields::with_dip(PI / 2.0), Err(Error::ParallelFields { .. })));
+        assert!(matches!(
+            WorldFields::with_dip(PI / 2.0),
+            Err(Error::ParallelFields { .. })
+        ));
         assert!(WorldFields::new(DVec3::ZERO, DVec3::X).is_err());
     }
 }

@@ -60,14 +60,21 @@ impl<const N: usize> Series<N> {
     #[must_use]
     pub fn derivative(&self) -> Self {
         Self(core::array::from_fn(|k| {
-            if k + 1 < N { self.0[k + 1] * (k + 1) as f64 } else { 0.0 }
+            if k + 1 < N {
+                self.0[k + 1] * (k + 1) as f64
+            } else {
+                0.0
+            }
         }))
     }
 
     /// Sine and cosine together.
     #[must_use]
     pub fn sin_cos(&self) -> (Self, Self) {
-        let (mut sin, mut cos) = (Self::constant(self.value().sin()), Self::constant(self.value().cos()));
+        let (mut sin, mut cos) = (
+            Self::constant(self.value().sin()),
+            Self::constant(self.value().cos()),
+        );
         for k in 1..N {
             let (mut s, mut c) = (0.0, 0.0);
             for j in 1..=k {
@@ -98,7 +105,9 @@ impl<const N: usize> Series<N> {
     pub fn exp(&self) -> Self {
         let mut result = Self::constant(self.value().exp());
         for k in 1..N {
-            let sum: f64 = (1..=k).map(|j| j as f64 * self.0[j] * result.0[k - j]).sum();
+            let sum: f64 = (1..=k)
+                .map(|j| j as f64 * self.0[j] * result.0[k - j])
+                .sum();
             result.0[k] = sum / k as f64;
         }
         result
@@ -141,7 +150,9 @@ impl<const N: usize> Neg for Series<N> {
 impl<const N: usize> Mul for Series<N> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        Self(core::array::from_fn(|k| (0..=k).map(|j| self.0[j] * other.0[k - j]).sum()))
+        Self(core::array::from_fn(|k| {
+            (0..=k).map(|j| self.0[j] * other.0[k - j]).sum()
+        }))
     }
 }
 
@@ -193,7 +204,9 @@ impl<const N: usize> VectorSeries<N> {
     /// A vector that does not move.
     #[must_use]
     pub fn constant(value: DVec3) -> Self {
-        Self(core::array::from_fn(|k| if k == 0 { value } else { DVec3::ZERO }))
+        Self(core::array::from_fn(|k| {
+            if k == 0 { value } else { DVec3::ZERO }
+        }))
     }
 
     /// From the three coordinate functions.
@@ -219,32 +232,46 @@ impl<const N: usize> VectorSeries<N> {
     #[must_use]
     pub fn derivative(&self) -> Self {
         Self(core::array::from_fn(|k| {
-            if k + 1 < N { self.0[k + 1] * (k + 1) as f64 } else { DVec3::ZERO }
+            if k + 1 < N {
+                self.0[k + 1] * (k + 1) as f64
+            } else {
+                DVec3::ZERO
+            }
         }))
     }
 
     /// Value, first and second derivative.
     #[must_use]
     pub fn first_three(&self) -> [DVec3; 3] {
-        [self.derivative_at(0), self.derivative_at(1), self.derivative_at(2)]
+        [
+            self.derivative_at(0),
+            self.derivative_at(1),
+            self.derivative_at(2),
+        ]
     }
 
     /// Scalar product.
     #[must_use]
     pub fn dot(&self, other: &Self) -> Series<N> {
-        Series(core::array::from_fn(|k| (0..=k).map(|j| self.0[j].dot(other.0[k - j])).sum()))
+        Series(core::array::from_fn(|k| {
+            (0..=k).map(|j| self.0[j].dot(other.0[k - j])).sum()
+        }))
     }
 
     /// Vector product.
     #[must_use]
     pub fn cross(&self, other: &Self) -> Self {
-        Self(core::array::from_fn(|k| (0..=k).map(|j| self.0[j].cross(other.0[k - j])).sum()))
+        Self(core::array::from_fn(|k| {
+            (0..=k).map(|j| self.0[j].cross(other.0[k - j])).sum()
+        }))
     }
 
     /// Product with a scalar function.
     #[must_use]
     pub fn scaled(&self, factor: &Series<N>) -> Self {
-        Self(core::array::from_fn(|k| (0..=k).map(|j| self.0[j] * factor.0[k - j]).sum()))
+        Self(core::array::from_fn(|k| {
+            (0..=k).map(|j| self.0[j] * factor.0[k - j]).sum()
+        }))
     }
 
     /// The unit vector along this one; not finite where the vector vanishes.
@@ -300,7 +327,10 @@ mod tests {
                 derivative = derivative.derivative();
             }
             let value: f64 = derivative.0.iter().rev().fold(0.0, |sum, c| sum * h + c);
-            assert!((value - moved.derivative_at(order)).abs() < 1e-11, "order {order}");
+            assert!(
+                (value - moved.derivative_at(order)).abs() < 1e-11,
+                "order {order}"
+            );
         }
     }
 

@@ -4,10 +4,10 @@
 //! `R = R_0 + sum w_k B_k`, so the Dirichlet and the thin-plate energy are quadratic and their minimum is one
 //! linear system; the speed variation is a nonlinear least-squares problem.
 
+use crate::Error;
 use crate::coons::{CORNERS, CoonsPatch, Line, Rectangle, components};
 use crate::quadrature::gauss;
 use crate::strip::Strip;
-use crate::Error;
 use core::array::from_fn;
 use glam::DVec3;
 use nalgebra::{SMatrix, SVector};
@@ -67,14 +67,23 @@ impl<'a, S: Strip> Grid<'a, S> {
     fn new(patch: &'a CoonsPatch<S>) -> Self {
         let rectangle = patch.rectangle();
         let rule = gauss(NODES);
-        let lines: Vec<([Line; 2], f64)> =
-            rule.iter().map(|(t, w)| ([patch.line(false, *t), patch.line(true, *t)], *w)).collect();
+        let lines: Vec<([Line; 2], f64)> = rule
+            .iter()
+            .map(|(t, w)| ([patch.line(false, *t), patch.line(true, *t)], *w))
+            .collect();
         let directions = from_fn(|k| rectangle.free_direction(k).1);
         let movers = lines
             .iter()
-            .map(|(pair, _)| [0, 1].map(|axis: usize| from_fn(|k| mover(rectangle, &pair[axis], axis, k))))
+            .map(|(pair, _)| {
+                [0, 1].map(|axis: usize| from_fn(|k| mover(rectangle, &pair[axis], axis, k)))
+            })
             .collect();
-        Self { patch, lines, movers, directions }
+        Self {
+            patch,
+            lines,
+            movers,
+            directions,
+        }
     }
 
     /// Calls `visit` with the derivatives of `R_0 + sum w B` and of the basis at every node, and its weight.
@@ -88,7 +97,8 @@ impl<'a, S: Strip> Grid<'a, S> {
                     let (ku, kv) = (1 + ci, 1 + cj);
                     ORDERS.map(|[a, b]| {
                         let (hu, hv) = (u.functions[a][ku], v.functions[b][kv]);
-                        self.movers[i][0][k][a] * hv + self.movers[j][1][k][b] * hu - self.directions[k] * (hu * hv)
+                        self.movers[i][0][k][a] * hv + self.movers[j][1][k][b] * hu
+                            - self.directions[k] * (hu * hv)
                     })
                 });
                 visit(&patch, &basis, wu * wv);
@@ -99,7 +109,12 @@ impl<'a, S: Strip> Grid<'a, S> {
 
 /// The change of the transverse field along the boundary of a corner, at a line, when a free parameter of that
 /// corner grows by one: its slope at the corner's end moves by the direction of the parameter.
-fn mover<S: Strip>(rectangle: &Rectangle<S>, line: &Line, axis: usize, parameter: usize) -> [DVec3; 3] {
+fn mover<S: Strip>(
+    rectangle: &Rectangle<S>,
+    line: &Line,
+    axis: usize,
+    parameter: usize,
+) -> [DVec3; 3] {
     let (corner, direction) = rectangle.free_direction(parameter);
     let [i, j] = CORNERS[corner];
     // Along u the boundary is v = j and the end u = i; along v the other way round.
@@ -109,7 +124,11 @@ fn mover<S: Strip>(rectangle: &Rectangle<S>, line: &Line, axis: usize, parameter
     let sample = &line.samples[which];
     let slope = line.functions.map(|row| row[1 + end]);
     let at = |k: usize| sample.along[k] * p + sample.across[k] * q;
-    [at(0) * slope[0], at(0) * slope[1] + at(1) * slope[0], at(0) * slope[2] + at(1) * (2.0 * slope[1]) + at(2) * slope[0]]
+    [
+        at(0) * slope[0],
+        at(0) * slope[1] + at(1) * slope[0],
+        at(0) * slope[2] + at(1) * (2.0 * slope[1]) + at(2) * slope[0],
+    ]
 }
 
 impl Criterion {
@@ -148,7 +167,12 @@ impl<S: Strip> Rectangle<S> {
         let mut eigenvalues: [f64; 8] = matrix.symmetric_eigenvalues().into();
         eigenvalues.sort_by(f64::total_cmp);
         let patch = self.patch_unchecked(from_fn(|c| [w[2 * c], w[2 * c + 1]]))?;
-        Ok(Smoothed { patch, energy, energy_at_zero, eigenvalues })
+        Ok(Smoothed {
+            patch,
+            energy,
+            energy_at_zero,
+            eigenvalues,
+        })
     }
 }
 
@@ -157,15 +181,23 @@ impl<S: Strip> CoonsPatch<S> {
     #[must_use]
     pub fn energy(&self, criterion: Criterion) -> f64 {
         let rule = gauss(NODES);
-        let lines: Vec<([Line; 2], f64)> =
-            rule.iter().map(|(t, w)| ([self.line(false, *t), self.line(true, *t)], *w)).collect();
+        let lines: Vec<([Line; 2], f64)> = rule
+            .iter()
+            .map(|(t, w)| ([self.line(false, *t), self.line(true, *t)], *w))
+            .collect();
         let mut sum = 0.0;
         for ([u, _], wu) in &lines {
             for ([_, v], wv) in &lines {
                 let d = ORDERS.map(|[a, b]| self.derivative(u, v, a, b));
                 let density = match criterion {
-                    Criterion::SpeedVariation => speed_residuals(&d).map(|r| r * r).iter().sum::<f64>(),
-                    _ => criterion.integrand(&d).map(|x| x.length_squared()).iter().sum(),
+                    Criterion::SpeedVariation => {
+                        speed_residuals(&d).map(|r| r * r).iter().sum::<f64>()
+                    }
+                    _ => criterion
+                        .integrand(&d)
+                        .map(|x| x.length_squared())
+                        .iter()
+                        .sum(),
                 };
                 sum += wu * wv * density;
             }
@@ -209,11 +241,16 @@ fn solve(matrix: &Matrix8, right: &Vector8) -> Result<Vector8, Error> {
 
 /// `d|R_u|/du` and `d|R_v|/dv`.
 fn speed_residuals(d: &Derivatives) -> [f64; 2] {
-    [d[0].dot(d[2]) / d[0].length(), d[1].dot(d[4]) / d[1].length()]
+    [
+        d[0].dot(d[2]) / d[0].length(),
+        d[1].dot(d[4]) / d[1].length(),
+    ]
 }
 
 /// Gauss-Newton with Levenberg's damping, from the Dirichlet minimum.
-fn least_speed_variation<S: Strip>(grid: &Grid<'_, S>) -> Result<(Vector8, f64, f64, Matrix8), Error> {
+fn least_speed_variation<S: Strip>(
+    grid: &Grid<'_, S>,
+) -> Result<(Vector8, f64, f64, Matrix8), Error> {
     let (start, ..) = quadratic_minimum(grid, Criterion::Dirichlet)?;
     let (at_zero, ..) = speed_model(grid, &Vector8::zeros());
     let mut w = start;
@@ -221,7 +258,10 @@ fn least_speed_variation<S: Strip>(grid: &Grid<'_, S>) -> Result<(Vector8, f64, 
     let mut damping = 1e-6;
     for _ in 0..STEPS {
         let scale = matrix.trace() / 8.0;
-        let step = solve(&(matrix + Matrix8::identity() * (damping * scale)), &-gradient)?;
+        let step = solve(
+            &(matrix + Matrix8::identity() * (damping * scale)),
+            &-gradient,
+        )?;
         let (trial, g, m) = speed_model(grid, &(w + step));
         if trial <= energy {
             let gain = energy - trial;
@@ -283,7 +323,11 @@ mod tests {
     #[test]
     fn each_minimum_is_the_least_of_its_column_and_stationary() {
         let rectangle = cylinder();
-        let criteria = [Criterion::SpeedVariation, Criterion::Dirichlet, Criterion::ThinPlate];
+        let criteria = [
+            Criterion::SpeedVariation,
+            Criterion::Dirichlet,
+            Criterion::ThinPlate,
+        ];
         let smoothed = criteria.map(|c| rectangle.smoothest(c).unwrap());
         for (c, criterion) in criteria.into_iter().enumerate() {
             let own = smoothed[c].patch.energy(criterion);
@@ -295,7 +339,10 @@ mod tests {
                 for step in [1e-3, -1e-3] {
                     let mut twists = *smoothed[c].patch.twists();
                     twists[k / 2][k % 2] += step;
-                    assert!(rectangle.patch(twists).unwrap().energy(criterion) > own, "{criterion:?} {k}");
+                    assert!(
+                        rectangle.patch(twists).unwrap().energy(criterion) > own,
+                        "{criterion:?} {k}"
+                    );
                 }
             }
             assert!(boundary_geodesic_curvature(&smoothed[c].patch, 16) < 1e-12);
@@ -303,7 +350,11 @@ mod tests {
         // The thin plate through four helices is very nearly the cylinder, and its speed hardly varies.
         let plate = &smoothed[2].patch;
         let radius = |u: f64, v: f64| plate.point(u, v).truncate().length();
-        assert!((radius(0.4, 0.6) - 1.0).abs() < 2e-5, "{}", radius(0.4, 0.6));
+        assert!(
+            (radius(0.4, 0.6) - 1.0).abs() < 2e-5,
+            "{}",
+            radius(0.4, 0.6)
+        );
         assert!(smoothed[0].energy < 1e-8);
     }
 }

@@ -75,7 +75,12 @@ impl SpatialRibbon {
     /// # Errors
     /// See [`SpatialRibbon::with_method`].
     pub fn new(s: &[f64], tangents: &[DVec3]) -> Result<Self, Error> {
-        Self::with_method(s, tangents, TangentMethod::default(), EndCondition::default())
+        Self::with_method(
+            s,
+            tangents,
+            TangentMethod::default(),
+            EndCondition::default(),
+        )
     }
 
     /// As [`SpatialRibbon::new`] with a method and an end condition; [`TangentMethod::SphericalSpline`] has
@@ -94,16 +99,30 @@ impl SpatialRibbon {
     ) -> Result<Self, Error> {
         check_increasing(s)?;
         if tangents.len() != s.len() {
-            return Err(Error::LengthMismatch { what: "tangents", expected: s.len(), got: tangents.len() });
+            return Err(Error::LengthMismatch {
+                what: "tangents",
+                expected: s.len(),
+                got: tangents.len(),
+            });
         }
         let tangents = unit_tangents(tangents)?;
         let tangent = match method {
-            TangentMethod::Projected => Tangent::Projected(projected(CubicSpline::new(s, &tangents, end)?)?),
+            TangentMethod::Projected => {
+                Tangent::Projected(projected(CubicSpline::new(s, &tangents, end)?)?)
+            }
             TangentMethod::SphericalSpline => Tangent::Spherical(SphereSpline::new(s, &tangents)?),
         };
         let accuracy = ACCURACY * (s[s.len() - 1] - s[0]);
         let (points, integration_error) = positions(s, &|s| tangent.value(s), accuracy)?;
-        Ok(Self { knots: s.to_vec(), tangents, tangent, end, points, accuracy, integration_error })
+        Ok(Self {
+            knots: s.to_vec(),
+            tangents,
+            tangent,
+            end,
+            points,
+            accuracy,
+            integration_error,
+        })
     }
 
     /// The arc lengths of the data.
@@ -162,7 +181,8 @@ impl SpatialRibbon {
     /// [`Error::NotIntegrable`] for an `s` that is no number or absurdly far beyond the ends.
     pub fn point(&self, s: f64) -> Result<DVec3, Error> {
         let i = interval(&self.knots, s);
-        Ok(self.points[i] + integrate(&|s| self.tangent.value(s), self.knots[i], s, self.accuracy)?.0)
+        Ok(self.points[i]
+            + integrate(&|s| self.tangent.value(s), self.knots[i], s, self.accuracy)?.0)
     }
 
     /// How the position at arc length `s` moves when tangent `j` moves by a small vector: one matrix a
@@ -181,7 +201,13 @@ impl SpatialRibbon {
         totals
     }
 
-    fn add_sensitivity(&self, cardinals: &[CubicSpline<f64>], start: f64, end: f64, totals: &mut [DMat3]) {
+    fn add_sensitivity(
+        &self,
+        cardinals: &[CubicSpline<f64>],
+        start: f64,
+        end: f64,
+        totals: &mut [DMat3],
+    ) {
         let length = end - start;
         for (node, weight) in crate::quadrature::SIX {
             let s = start + node * length;
@@ -208,10 +234,12 @@ impl SpatialRibbon {
         self.positions_sensitivity()
             .into_iter()
             .map(|row| {
-                row.iter().zip(&self.tangents).fold(DMat3::ZERO, |sum, (m, t)| {
-                    let across = DMat3::IDENTITY - outer(*t, *t);
-                    sum + *m * across * m.transpose() * (sigma * sigma)
-                })
+                row.iter()
+                    .zip(&self.tangents)
+                    .fold(DMat3::ZERO, |sum, (m, t)| {
+                        let across = DMat3::IDENTITY - outer(*t, *t);
+                        sum + *m * across * m.transpose() * (sigma * sigma)
+                    })
             })
             .collect()
     }
@@ -250,19 +278,32 @@ impl RibbonCurve {
     pub fn new(ribbon: SpatialRibbon, start: f64, end: f64, origin: DVec3) -> Result<Self, Error> {
         let [first, last] = [ribbon.knots[0], ribbon.knots[ribbon.knots.len() - 1]];
         if !(first <= start && start < end && end <= last) {
-            return Err(Error::OutOfRange { what: "arc length", value: if start < first { start } else { end }, range: [first, last] });
+            return Err(Error::OutOfRange {
+                what: "arc length",
+                value: if start < first { start } else { end },
+                range: [first, last],
+            });
         }
         if matches!(ribbon.tangent, Tangent::Spherical(_)) {
-            return Err(Error::Unsupported { what: "derivatives of the spline on the sphere" });
+            return Err(Error::Unsupported {
+                what: "derivatives of the spline on the sphere",
+            });
         }
-        Ok(Self { ribbon, start, length: end - start, origin })
+        Ok(Self {
+            ribbon,
+            start,
+            length: end - start,
+            origin,
+        })
     }
 }
 
 impl Curve for RibbonCurve {
     fn series(&self, t: f64) -> VectorSeries {
         let s = self.start + t * self.length;
-        let Tangent::Projected(spline) = &self.ribbon.tangent else { return VectorSeries::constant(DVec3::NAN) };
+        let Tangent::Projected(spline) = &self.ribbon.tangent else {
+            return VectorSeries::constant(DVec3::NAN);
+        };
         let piece = spline.piece(interval(&self.ribbon.knots, s));
         let third = (piece.moments[1] - piece.moments[0]) / piece.length;
         let cubic = VectorSeries([
@@ -307,7 +348,11 @@ impl ClosedSpatialRibbon {
         check_increasing(s)?;
         let n = s.len();
         if tangents.len() != n {
-            return Err(Error::LengthMismatch { what: "tangents", expected: n, got: tangents.len() });
+            return Err(Error::LengthMismatch {
+                what: "tangents",
+                expected: n,
+                got: tangents.len(),
+            });
         }
         let mut knots = s.to_vec();
         knots.push(s[0] + length);
@@ -316,7 +361,12 @@ impl ClosedSpatialRibbon {
         values.extend(tangents.first());
         let measured = unit_tangents(&values)?;
         let cardinals: Vec<CubicSpline<f64>> = (0..n)
-            .map(|j| CubicSpline::periodic(&knots, &(0..=n).map(|i| f64::from(i % n == j)).collect::<Vec<_>>()))
+            .map(|j| {
+                CubicSpline::periodic(
+                    &knots,
+                    &(0..=n).map(|i| f64::from(i % n == j)).collect::<Vec<_>>(),
+                )
+            })
             .collect::<Result<_, _>>()?;
         let mut values = measured.clone();
         let mut closing_error = None;
@@ -327,9 +377,16 @@ impl ClosedSpatialRibbon {
             let gap = points[n];
             let first_gap = *closing_error.get_or_insert(gap);
             if gap.length() <= CLOSED * length {
-                let largest_adjustment =
-                    values.iter().zip(&measured).fold(0.0, |m: f64, (a, b)| m.max(a.angle_between(*b)));
-                return Ok(Self { spline, points, closing_error: first_gap, largest_adjustment });
+                let largest_adjustment = values
+                    .iter()
+                    .zip(&measured)
+                    .fold(0.0, |m: f64, (a, b)| m.max(a.angle_between(*b)));
+                return Ok(Self {
+                    spline,
+                    points,
+                    closing_error: first_gap,
+                    largest_adjustment,
+                });
             }
             let slopes: Vec<DMat3> = cardinals
                 .iter()
@@ -347,7 +404,9 @@ impl ClosedSpatialRibbon {
                     DMat3::from_cols_array(&total)
                 })
                 .collect();
-            let gram = slopes.iter().fold(DMat3::ZERO, |sum, m| sum + *m * m.transpose());
+            let gram = slopes
+                .iter()
+                .fold(DMat3::ZERO, |sum, m| sum + *m * m.transpose());
             // A straight ribbon cannot close to first order: no tangent moves the end along itself.
             if gram.determinant() <= 1e-12 * length.powi(6) / (n as f64).powi(3) {
                 break;
@@ -358,7 +417,10 @@ impl ClosedSpatialRibbon {
             }
             values[n] = values[0];
         }
-        Err(Error::NoConvergence { what: "closing the ribbon", steps: CLOSING_STEPS })
+        Err(Error::NoConvergence {
+            what: "closing the ribbon",
+            steps: CLOSING_STEPS,
+        })
     }
 
     /// The gap that the measured tangents left, before the adjustment.
@@ -399,9 +461,15 @@ pub(crate) fn unit_tangents(tangents: &[DVec3]) -> Result<Vec<DVec3>, Error> {
     let mut units: Vec<DVec3> = Vec::with_capacity(tangents.len());
     for (index, tangent) in tangents.iter().enumerate() {
         if !tangent.is_finite() {
-            return Err(Error::NonFinite { what: "tangent", index });
+            return Err(Error::NonFinite {
+                what: "tangent",
+                index,
+            });
         }
-        let unit = tangent.try_normalize().ok_or(Error::ZeroVector { what: "tangent", index })?;
+        let unit = tangent.try_normalize().ok_or(Error::ZeroVector {
+            what: "tangent",
+            index,
+        })?;
         if let Some(before) = units.last() {
             let cosine = before.dot(unit);
             if cosine < ANTIPODAL {
@@ -424,7 +492,8 @@ fn projected(spline: CubicSpline<DVec3>) -> Result<CubicSpline<DVec3>, Error> {
             let s = pair[0] + (pair[1] - pair[0]) * k as f64 / CHORDS as f64;
             let after = spline.value(s);
             let chord = after - before;
-            let nearest = (-before.dot(chord) / chord.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            let nearest = (-before.dot(chord) / chord.length_squared().max(f64::MIN_POSITIVE))
+                .clamp(0.0, 1.0);
             let length = (before + chord * nearest).length();
             if !(length >= NEAR_ZERO) {
                 return Err(Error::TangentLost { s, length });
@@ -442,8 +511,15 @@ mod tests {
     use glam::DQuat;
 
     fn tangent(s: f64) -> DVec3 {
-        let (theta, phi) = (0.9 + 0.5 * (1.3 * s).sin(), 0.3 + 0.8 * s + 0.2 * (2.1 * s).cos());
-        DVec3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos())
+        let (theta, phi) = (
+            0.9 + 0.5 * (1.3 * s).sin(),
+            0.3 + 0.8 * s + 0.2 * (2.1 * s).cos(),
+        );
+        DVec3::new(
+            theta.sin() * phi.cos(),
+            theta.sin() * phi.sin(),
+            theta.cos(),
+        )
     }
 
     fn data(n: usize) -> (Vec<f64>, Vec<DVec3>) {
@@ -456,7 +532,12 @@ mod tests {
         let (s, tangents) = data(n);
         let ribbon = SpatialRibbon::with_method(&s, &tangents, method, end).unwrap();
         let (exact, _) = positions(&s, &tangent, 1e-13).unwrap();
-        ribbon.points().iter().zip(&exact).map(|(p, q)| (*p - *q).length()).fold(0.0, f64::max)
+        ribbon
+            .points()
+            .iter()
+            .zip(&exact)
+            .map(|(p, q)| (*p - *q).length())
+            .fold(0.0, f64::max)
     }
 
     #[test]
@@ -465,7 +546,10 @@ mod tests {
         let a = order(TangentMethod::Projected, EndCondition::NotAKnot);
         assert!(a > 3.9, "projected, not-a-knot: {a}");
         let natural = order(TangentMethod::Projected, EndCondition::Natural);
-        assert!((2.7..3.4).contains(&natural), "projected, natural: {natural}");
+        assert!(
+            (2.7..3.4).contains(&natural),
+            "projected, natural: {natural}"
+        );
         let sphere = order(TangentMethod::SphericalSpline, EndCondition::Natural);
         assert!((2.7..3.4).contains(&sphere), "sphere: {sphere}");
     }
@@ -476,11 +560,19 @@ mod tests {
         let (s, tangents) = data(24);
         let mut noise = Noise::new(3);
         for method in [TangentMethod::Projected, TangentMethod::SphericalSpline] {
-            let ribbon = SpatialRibbon::with_method(&s, &tangents, method, EndCondition::NotAKnot).unwrap();
+            let ribbon =
+                SpatialRibbon::with_method(&s, &tangents, method, EndCondition::NotAKnot).unwrap();
             for _ in 0..20 {
-                let q = DQuat::from_xyzw(noise.gaussian(), noise.gaussian(), noise.gaussian(), noise.gaussian()).normalize();
+                let q = DQuat::from_xyzw(
+                    noise.gaussian(),
+                    noise.gaussian(),
+                    noise.gaussian(),
+                    noise.gaussian(),
+                )
+                .normalize();
                 let turned: Vec<DVec3> = tangents.iter().map(|t| q * *t).collect();
-                let other = SpatialRibbon::with_method(&s, &turned, method, EndCondition::NotAKnot).unwrap();
+                let other = SpatialRibbon::with_method(&s, &turned, method, EndCondition::NotAKnot)
+                    .unwrap();
                 for (a, b) in ribbon.points().iter().zip(other.points()) {
                     assert!((q * *a - *b).length() < 4e-12);
                 }
@@ -518,26 +610,35 @@ mod tests {
         let mut measured = DMat3::ZERO;
         let runs = 3000;
         for _ in 0..runs {
-            let noisy: Vec<DVec3> = tangents.iter().map(|t| *t + noise.gaussian_vector() * sigma).collect();
+            let noisy: Vec<DVec3> = tangents
+                .iter()
+                .map(|t| *t + noise.gaussian_vector() * sigma)
+                .collect();
             let end = SpatialRibbon::new(&s, &noisy).unwrap().points()[16] - ribbon.points()[16];
             measured += outer(end, end) * (1.0 / f64::from(runs));
         }
         // Relative standard error of a variance from 3,000 draws: 2.6 %; allow four of them on the trace.
         let trace = |m: DMat3| m.x_axis.x + m.y_axis.y + m.z_axis.z;
-        assert!((trace(measured) / trace(predicted) - 1.0).abs() < 0.1, "{measured} {predicted}");
+        assert!(
+            (trace(measured) / trace(predicted) - 1.0).abs() < 0.1,
+            "{measured} {predicted}"
+        );
     }
 
     #[test]
     fn a_closed_ribbon_closes() {
         let n = 36;
         let length = 5.0;
-        let s: Vec<f64> = (0..n).map(|i| length * f64::from(i) / f64::from(n)).collect();
+        let s: Vec<f64> = (0..n)
+            .map(|i| length * f64::from(i) / f64::from(n))
+            .collect();
         let mut noise = Noise::new(5);
         let tangents: Vec<DVec3> = s
             .iter()
             .map(|s| {
                 let t = s / length * core::f64::consts::TAU;
-                DVec3::new(-t.sin(), t.cos(), 0.4 * (2.0 * t).cos()) + noise.gaussian_vector() * 0.02
+                DVec3::new(-t.sin(), t.cos(), 0.4 * (2.0 * t).cos())
+                    + noise.gaussian_vector() * 0.02
             })
             .collect();
         let ribbon = ClosedSpatialRibbon::new(&s, &tangents, length).unwrap();
@@ -558,9 +659,15 @@ mod tests {
         let [before, after] = [curve.series(0.37 - h), curve.series(0.37 + h)];
         for order in 0..4 {
             let difference = (after.derivative_at(order) - before.derivative_at(order)) / (2.0 * h);
-            assert!((difference - r.derivative_at(order + 1)).length() < 1e-4, "{order}");
+            assert!(
+                (difference - r.derivative_at(order + 1)).length() < 1e-4,
+                "{order}"
+            );
         }
-        assert!((r.derivative_at(2) / (2.6 * 2.6) - ribbon.curvature_vector(0.5 + 0.37 * 2.6)).length() < 1e-12);
+        assert!(
+            (r.derivative_at(2) / (2.6 * 2.6) - ribbon.curvature_vector(0.5 + 0.37 * 2.6)).length()
+                < 1e-12
+        );
         assert!(RibbonCurve::new(ribbon, -1.0, 2.0, DVec3::ZERO).is_err());
     }
 
@@ -568,13 +675,27 @@ mod tests {
     fn hostile_data() {
         let s = [0.0, 1.0, 2.0];
         let bad = |tangents: [DVec3; 3]| SpatialRibbon::new(&s, &tangents);
-        assert!(matches!(bad([DVec3::X, -DVec3::X, DVec3::Y]), Err(Error::AntipodalTangents { index: 1, .. })));
-        assert!(matches!(bad([DVec3::X, DVec3::ZERO, DVec3::Y]), Err(Error::ZeroVector { index: 1, .. })));
-        assert!(matches!(bad([DVec3::X, DVec3::NAN, DVec3::Y]), Err(Error::NonFinite { index: 1, .. })));
+        assert!(matches!(
+            bad([DVec3::X, -DVec3::X, DVec3::Y]),
+            Err(Error::AntipodalTangents { index: 1, .. })
+        ));
+        assert!(matches!(
+            bad([DVec3::X, DVec3::ZERO, DVec3::Y]),
+            Err(Error::ZeroVector { index: 1, .. })
+        ));
+        assert!(matches!(
+            bad([DVec3::X, DVec3::NAN, DVec3::Y]),
+            Err(Error::NonFinite { index: 1, .. })
+        ));
         let wild = [DVec3::X, DVec3::new(-0.999, 0.04, 0.0), DVec3::X];
         assert!(matches!(bad(wild), Err(Error::TangentLost { .. })));
         let method = TangentMethod::SphericalSpline;
-        let uneven = SpatialRibbon::with_method(&[0.0, 1.0, 3.0], &[DVec3::X, DVec3::Y, DVec3::Z], method, EndCondition::Natural);
+        let uneven = SpatialRibbon::with_method(
+            &[0.0, 1.0, 3.0],
+            &[DVec3::X, DVec3::Y, DVec3::Z],
+            method,
+            EndCondition::Natural,
+        );
         assert!(matches!(uneven, Err(Error::NotUniform { .. })));
     }
 }

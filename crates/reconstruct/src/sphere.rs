@@ -15,7 +15,11 @@ pub(crate) fn slerp(a: DVec3, b: DVec3, t: f64) -> DVec3 {
 pub(crate) fn logarithm(a: DVec3, b: DVec3) -> DVec3 {
     let across = b - a * a.dot(b);
     let sine = across.length();
-    if sine == 0.0 { DVec3::ZERO } else { across * (sine.atan2(a.dot(b)) / sine) }
+    if sine == 0.0 {
+        DVec3::ZERO
+    } else {
+        across * (sine.atan2(a.dot(b)) / sine)
+    }
 }
 
 /// The end of the great circle that leaves `a` with velocity `v`, after unit time.
@@ -51,10 +55,18 @@ impl SphereSpline {
         let spacing = (knots[n] - knots[0]) / n as f64;
         for (index, pair) in knots.windows(2).enumerate() {
             if ((pair[1] - pair[0]) / spacing - 1.0).abs() > UNIFORM {
-                return Err(Error::NotUniform { index, spacing: pair[1] - pair[0], expected: spacing });
+                return Err(Error::NotUniform {
+                    index,
+                    spacing: pair[1] - pair[0],
+                    expected: spacing,
+                });
             }
         }
-        let mut spline = Self { start: knots[0], spacing, controls: vec![DVec3::ZERO; n + 3] };
+        let mut spline = Self {
+            start: knots[0],
+            spacing,
+            controls: vec![DVec3::ZERO; n + 3],
+        };
         spline.controls[1..=n + 1].copy_from_slice(data);
         let mut corrections = vec![DVec3::ZERO; n + 1];
         for _ in 0..SWEEPS {
@@ -73,7 +85,10 @@ impl SphereSpline {
                 *control = exponential(*control, *correction - *control * control.dot(*correction));
             }
         }
-        Err(Error::NoConvergence { what: "the spline on the sphere", steps: SWEEPS })
+        Err(Error::NoConvergence {
+            what: "the spline on the sphere",
+            steps: SWEEPS,
+        })
     }
 
     fn reflect_ghosts(&mut self) {
@@ -138,8 +153,10 @@ mod tests {
     #[test]
     fn the_spline_interpolates() {
         let knots: Vec<f64> = (0..9).map(|i| 0.5 * f64::from(i)).collect();
-        let data: Vec<DVec3> =
-            knots.iter().map(|s| DVec3::new(s.cos(), (1.3 * s).sin(), 0.4 + 0.2 * s).normalize()).collect();
+        let data: Vec<DVec3> = knots
+            .iter()
+            .map(|s| DVec3::new(s.cos(), (1.3 * s).sin(), 0.4 + 0.2 * s).normalize())
+            .collect();
         let spline = SphereSpline::new(&knots, &data).unwrap();
         for (s, d) in knots.iter().zip(&data) {
             assert!((spline.value(*s) - *d).length() < 3e-14);

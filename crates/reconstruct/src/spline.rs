@@ -39,7 +39,8 @@ impl SplineSystem {
     pub(crate) fn new(knots: &[f64], end: EndCondition) -> Result<Self, Error> {
         check_increasing(knots)?;
         let inner = knots.len().saturating_sub(2);
-        let (mut lower, mut pivot, mut upper) = (vec![0.0; inner], vec![0.0; inner], vec![0.0; inner]);
+        let (mut lower, mut pivot, mut upper) =
+            (vec![0.0; inner], vec![0.0; inner], vec![0.0; inner]);
         for (row, window) in knots.windows(3).enumerate() {
             let (h0, h1) = (window[1] - window[0], window[2] - window[1]);
             let (mut below, mut diagonal, mut above) = (h0 / 6.0, (h0 + h1) / 3.0, h1 / 6.0);
@@ -62,7 +63,13 @@ impl SplineSystem {
             pivot[row] = 1.0 / (diagonal - lower[row] * before);
             upper[row] = above * pivot[row];
         }
-        Ok(Self { knots: knots.to_vec(), end, lower, pivot, upper })
+        Ok(Self {
+            knots: knots.to_vec(),
+            end,
+            lower,
+            pivot,
+            upper,
+        })
     }
 
     pub(crate) fn knots(&self) -> &[f64] {
@@ -74,7 +81,10 @@ impl SplineSystem {
         let n = self.knots.len();
         let inner = n - 2.min(n);
         for row in 0..inner {
-            let (h0, h1) = (self.knots[row + 1] - self.knots[row], self.knots[row + 2] - self.knots[row + 1]);
+            let (h0, h1) = (
+                self.knots[row + 1] - self.knots[row],
+                self.knots[row + 2] - self.knots[row + 1],
+            );
             let slope = |i: usize, h: f64| values[i + 1].minus(values[i]).times(1.0 / h);
             let mut right = slope(row + 1, h1).minus(slope(row, h0));
             if row > 0 {
@@ -90,7 +100,9 @@ impl SplineSystem {
             EndCondition::Natural => (V::ZERO, V::ZERO),
             EndCondition::NotAKnot if inner == 1 => (moments[1], moments[1]),
             EndCondition::NotAKnot => {
-                let outward = |end: V, next: V, outer: f64, inner: f64| end.plus(end.minus(next).times(outer / inner));
+                let outward = |end: V, next: V, outer: f64, inner: f64| {
+                    end.plus(end.minus(next).times(outer / inner))
+                };
                 let h = |i: usize| self.knots[i + 1] - self.knots[i];
                 (
                     outward(moments[1], moments[2], h(0), h(1)),
@@ -119,7 +131,8 @@ pub(crate) fn periodic_moments<V: VectorSpace>(knots: &[f64], values: &[V]) -> V
     let mut right: Vec<V> = (0..n).map(|i| slope(i).minus(slope(i + n - 1))).collect();
     let mut unit = vec![0.0; n];
     (unit[0], unit[n - 1]) = (1.0, 1.0);
-    let diagonal = |i: usize| (h(i) + h(i + n - 1)) / 3.0 - if i == 0 || i == n - 1 { corner } else { 0.0 };
+    let diagonal =
+        |i: usize| (h(i) + h(i + n - 1)) / 3.0 - if i == 0 || i == n - 1 { corner } else { 0.0 };
     pivot[0] = diagonal(0);
     for i in 1..n {
         let factor = below(i) / pivot[i - 1];
@@ -137,7 +150,11 @@ pub(crate) fn periodic_moments<V: VectorSpace>(knots: &[f64], values: &[V]) -> V
     }
     let share = corner / (1.0 + corner * (unit[0] + unit[n - 1]));
     let correction = right[0].plus(right[n - 1]).times(share);
-    let mut moments: Vec<V> = right.iter().zip(&unit).map(|(x, z)| x.minus(correction.times(*z))).collect();
+    let mut moments: Vec<V> = right
+        .iter()
+        .zip(&unit)
+        .map(|(x, z)| x.minus(correction.times(*z)))
+        .collect();
     moments.push(moments[0]);
     moments
 }
@@ -167,7 +184,11 @@ impl<V: VectorSpace> CubicSpline<V> {
     pub(crate) fn solve(system: &SplineSystem, values: &[V]) -> Self {
         let mut moments = vec![V::ZERO; values.len()];
         system.moments_into(values, &mut moments);
-        Self { knots: system.knots.clone(), values: values.to_vec(), moments }
+        Self {
+            knots: system.knots.clone(),
+            values: values.to_vec(),
+            moments,
+        }
     }
 
     /// The periodic spline; the last value must repeat the first, the period is the span of the knots.
@@ -184,7 +205,11 @@ impl<V: VectorSpace> CubicSpline<V> {
                 return Err(Error::NotPeriodic { gap });
             }
         }
-        Ok(Self { knots: knots.to_vec(), values: values.to_vec(), moments: periodic_moments(knots, values) })
+        Ok(Self {
+            knots: knots.to_vec(),
+            values: values.to_vec(),
+            moments: periodic_moments(knots, values),
+        })
     }
 
     /// The knots.
@@ -223,8 +248,14 @@ impl CubicSpline<f64> {
         let step = 1.0 / spans as f64;
         Self {
             knots: (0..=spans).map(|k| k as f64 * step).collect(),
-            values: c.windows(3).map(|c| (c[0] + 4.0 * c[1] + c[2]) / 6.0).collect(),
-            moments: c.windows(3).map(|c| (c[0] - 2.0 * c[1] + c[2]) / (step * step)).collect(),
+            values: c
+                .windows(3)
+                .map(|c| (c[0] + 4.0 * c[1] + c[2]) / 6.0)
+                .collect(),
+            moments: c
+                .windows(3)
+                .map(|c| (c[0] - 2.0 * c[1] + c[2]) / (step * step))
+                .collect(),
         }
     }
 
@@ -279,29 +310,50 @@ impl<V: VectorSpace> Cubic<V> {
 
 /// The index of the interval of `knots` that contains `s`, the first or last one outside.
 pub(crate) fn interval(knots: &[f64], s: f64) -> usize {
-    knots.partition_point(|knot| *knot <= s).saturating_sub(1).min(knots.len().saturating_sub(2))
+    knots
+        .partition_point(|knot| *knot <= s)
+        .saturating_sub(1)
+        .min(knots.len().saturating_sub(2))
 }
 
 /// Refuses fewer than two knots, knots that are no numbers or that do not increase strictly.
 pub(crate) fn check_increasing(knots: &[f64]) -> Result<(), Error> {
     if knots.len() < 2 {
-        return Err(Error::TooFew { what: "arc lengths", needed: 2, got: knots.len() });
+        return Err(Error::TooFew {
+            what: "arc lengths",
+            needed: 2,
+            got: knots.len(),
+        });
     }
     if let Some(index) = knots.iter().position(|s| !s.is_finite()) {
-        return Err(Error::NonFinite { what: "arc length", index });
+        return Err(Error::NonFinite {
+            what: "arc length",
+            index,
+        });
     }
     match knots.windows(2).position(|pair| pair[1] <= pair[0]) {
-        Some(i) => Err(Error::NotIncreasing { index: i + 1, previous: knots[i], next: knots[i + 1] }),
+        Some(i) => Err(Error::NotIncreasing {
+            index: i + 1,
+            previous: knots[i],
+            next: knots[i + 1],
+        }),
         None => Ok(()),
     }
 }
 
 fn check_values<V: VectorSpace>(knots: &[f64], values: &[V]) -> Result<(), Error> {
     if values.len() != knots.len() {
-        return Err(Error::LengthMismatch { what: "values", expected: knots.len(), got: values.len() });
+        return Err(Error::LengthMismatch {
+            what: "values",
+            expected: knots.len(),
+            got: values.len(),
+        });
     }
     match values.iter().position(|v| !v.is_finite()) {
-        Some(index) => Err(Error::NonFinite { what: "value", index }),
+        Some(index) => Err(Error::NonFinite {
+            what: "value",
+            index,
+        }),
         None => Ok(()),
     }
 }
@@ -317,14 +369,20 @@ mod tests {
     fn reproduction() {
         let cubic = |s: f64| 1.0 - 2.0 * s + 0.5 * s * s - 0.3 * s * s * s;
         let spline = CubicSpline::new(&KNOTS, &KNOTS.map(cubic), EndCondition::NotAKnot).unwrap();
-        let line = CubicSpline::new(&KNOTS, &KNOTS.map(|s| 2.0 - s), EndCondition::Natural).unwrap();
+        let line =
+            CubicSpline::new(&KNOTS, &KNOTS.map(|s| 2.0 - s), EndCondition::Natural).unwrap();
         for i in 0..=30 {
             let s = 0.1 * f64::from(i);
             assert!((spline.value(s) - cubic(s)).abs() < 1e-14);
             assert!((line.value(s) - (2.0 - s)).abs() < 1e-15);
         }
         let parabola = |s: f64| s * s - s;
-        let three = CubicSpline::new(&KNOTS[..3], &KNOTS.map(parabola)[..3], EndCondition::NotAKnot).unwrap();
+        let three = CubicSpline::new(
+            &KNOTS[..3],
+            &KNOTS.map(parabola)[..3],
+            EndCondition::NotAKnot,
+        )
+        .unwrap();
         assert!((three.value(0.7) - parabola(0.7)).abs() < 1e-15);
     }
 
@@ -336,7 +394,10 @@ mod tests {
             for i in 1..5 {
                 let (left, right) = (spline.piece(i - 1), spline.piece(i));
                 assert!((left.derivative(KNOTS[i]) - right.derivative(KNOTS[i])).abs() < 1e-13);
-                assert!((left.second_derivative(KNOTS[i]) - right.second_derivative(KNOTS[i])).abs() < 1e-13);
+                assert!(
+                    (left.second_derivative(KNOTS[i]) - right.second_derivative(KNOTS[i])).abs()
+                        < 1e-13
+                );
             }
             let series = spline.of_series(Series::parameter(1.7));
             assert!((series.value() - spline.value(1.7)).abs() < 1e-15);
@@ -347,17 +408,28 @@ mod tests {
     #[test]
     fn a_periodic_spline_closes_with_its_derivatives() {
         for n in [2, 3, 4, 7] {
-            let knots: Vec<f64> = (0..=n).map(|i| f64::from(i) + 0.2 * f64::from(i * i % 3)).collect();
+            let knots: Vec<f64> = (0..=n)
+                .map(|i| f64::from(i) + 0.2 * f64::from(i * i % 3))
+                .collect();
             let mut values: Vec<f64> = knots.iter().map(|s| (1.3 * s).cos() + s.sin()).collect();
             values[n as usize] = values[0];
             let spline = CubicSpline::periodic(&knots, &values).unwrap();
             let (first, last) = (spline.piece(0), spline.piece(n as usize - 1));
             let (a, b) = (knots[0], knots[n as usize]);
-            assert!((first.derivative(a) - last.derivative(b)).abs() < 1e-13, "{n}");
-            assert!((first.second_derivative(a) - last.second_derivative(b)).abs() < 1e-13, "{n}");
+            assert!(
+                (first.derivative(a) - last.derivative(b)).abs() < 1e-13,
+                "{n}"
+            );
+            assert!(
+                (first.second_derivative(a) - last.second_derivative(b)).abs() < 1e-13,
+                "{n}"
+            );
             for i in 1..n as usize {
                 let (left, right) = (spline.piece(i - 1), spline.piece(i));
-                assert!((left.derivative(knots[i]) - right.derivative(knots[i])).abs() < 1e-13, "{n}");
+                assert!(
+                    (left.derivative(knots[i]) - right.derivative(knots[i])).abs() < 1e-13,
+                    "{n}"
+                );
             }
         }
     }
@@ -365,10 +437,25 @@ mod tests {
     #[test]
     fn bad_data_are_refused() {
         let end = EndCondition::Natural;
-        assert!(matches!(CubicSpline::new(&[0.0], &[1.0], end), Err(Error::TooFew { .. })));
-        assert!(matches!(CubicSpline::new(&[0.0, 0.0], &[1.0, 2.0], end), Err(Error::NotIncreasing { index: 1, .. })));
-        assert!(matches!(CubicSpline::new(&[0.0, f64::NAN], &[1.0, 2.0], end), Err(Error::NonFinite { .. })));
-        assert!(matches!(CubicSpline::new(&[0.0, 1.0], &[1.0], end), Err(Error::LengthMismatch { .. })));
-        assert!(matches!(CubicSpline::periodic(&[0.0, 1.0], &[1.0, 2.0]), Err(Error::NotPeriodic { .. })));
+        assert!(matches!(
+            CubicSpline::new(&[0.0], &[1.0], end),
+            Err(Error::TooFew { .. })
+        ));
+        assert!(matches!(
+            CubicSpline::new(&[0.0, 0.0], &[1.0, 2.0], end),
+            Err(Error::NotIncreasing { index: 1, .. })
+        ));
+        assert!(matches!(
+            CubicSpline::new(&[0.0, f64::NAN], &[1.0, 2.0], end),
+            Err(Error::NonFinite { .. })
+        ));
+        assert!(matches!(
+            CubicSpline::new(&[0.0, 1.0], &[1.0], end),
+            Err(Error::LengthMismatch { .. })
+        ));
+        assert!(matches!(
+            CubicSpline::periodic(&[0.0, 1.0], &[1.0, 2.0]),
+            Err(Error::NotPeriodic { .. })
+        ));
     }
 }

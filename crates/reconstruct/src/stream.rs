@@ -60,11 +60,15 @@ impl RibbonStream {
     /// As [`RibbonLayout::tangents`]; [`Error::AntipodalTangents`] and [`Error::TangentLost`] for tangents
     /// that turn too fast. The positions of the last good frame are then kept.
     pub fn frame(&mut self, readings: &[DVec3]) -> Result<&[DVec3], Error> {
-        self.layout.tangents_into(readings, &mut self.scratch, &mut self.tangents)?;
+        self.layout
+            .tangents_into(readings, &mut self.scratch, &mut self.tangents)?;
         for (i, pair) in self.tangents.windows(2).enumerate() {
             let cosine = pair[0].dot(pair[1]);
             if cosine < ANTIPODAL {
-                return Err(Error::AntipodalTangents { index: i + 1, cosine });
+                return Err(Error::AntipodalTangents {
+                    index: i + 1,
+                    cosine,
+                });
             }
         }
         self.system.moments_into(&self.tangents, &mut self.moments);
@@ -86,7 +90,10 @@ impl RibbonStream {
                 sum += value * (weight / length);
             }
             if !(weakest.0 >= NEAR_ZERO) {
-                return Err(Error::TangentLost { s: weakest.1, length: weakest.0 });
+                return Err(Error::TangentLost {
+                    s: weakest.1,
+                    length: weakest.0,
+                });
             }
             point += sum * spacing;
             self.next[i + 1] = point;
@@ -121,7 +128,12 @@ mod tests {
     use glam::DMat3;
 
     fn frame_at(s: f64, time: f64) -> DMat3 {
-        let x = DVec3::new((0.9 * s + time).cos(), (0.9 * s).sin(), 0.3 * (1.1 * s + time).sin()).normalize();
+        let x = DVec3::new(
+            (0.9 * s + time).cos(),
+            (0.9 * s).sin(),
+            0.3 * (1.1 * s + time).sin(),
+        )
+        .normalize();
         let y = DVec3::new(-0.2 * s, 0.4, 1.0).cross(x).normalize();
         DMat3::from_cols(x, y, x.cross(y))
     }
@@ -129,8 +141,18 @@ mod tests {
     #[test]
     fn a_stream_gives_what_the_ribbon_gives_and_moves_no_buffer() {
         let world = WorldFields::with_dip(1.08).unwrap();
-        let kind = |i: usize| if i.is_multiple_of(2) { SensorKind::Accelerometer } else { SensorKind::Magnetometer };
-        let layout = RibbonLayout::new((0..32).map(|i| Sensor::new(0.05 * i as f64, kind(i))), world).unwrap();
+        let kind = |i: usize| {
+            if i.is_multiple_of(2) {
+                SensorKind::Accelerometer
+            } else {
+                SensorKind::Magnetometer
+            }
+        };
+        let layout = RibbonLayout::new(
+            (0..32).map(|i| Sensor::new(0.05 * i as f64, kind(i))),
+            world,
+        )
+        .unwrap();
         let mut stream = RibbonStream::new(layout.clone()).unwrap();
         let buffers = |stream: &RibbonStream| {
             let mut two = [stream.points.as_ptr(), stream.next.as_ptr()];
@@ -143,7 +165,11 @@ mod tests {
                 .sensors()
                 .iter()
                 .map(|sensor| {
-                    let field = if sensor.is_magnetometer() { world.magnetic() } else { world.up() };
+                    let field = if sensor.is_magnetometer() {
+                        world.magnetic()
+                    } else {
+                        world.up()
+                    };
                     frame_at(sensor.s, time).transpose() * field
                 })
                 .collect();

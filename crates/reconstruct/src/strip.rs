@@ -87,21 +87,41 @@ impl GeodesicStrip {
         for i in 0..=PROBES {
             let r = curve.series(i as f64 / PROBES as f64);
             if !r.is_finite() {
-                return Err(Error::NonFinite { what: "point or derivative of the curve at probe", index: i });
+                return Err(Error::NonFinite {
+                    what: "point or derivative of the curve at probe",
+                    index: i,
+                });
             }
             let [_, velocity, acceleration] = r.first_three();
             // Curvature times speed: the turning per unit of the parameter.
             let scale = velocity.length_squared();
-            binormals.push(if scale == 0.0 { DVec3::ZERO } else { velocity.cross(acceleration) / scale });
+            binormals.push(if scale == 0.0 {
+                DVec3::ZERO
+            } else {
+                velocity.cross(acceleration) / scale
+            });
         }
-        let largest = binormals.iter().copied().fold(DVec3::ZERO, |a, b| if b.length() > a.length() { b } else { a });
+        let largest = binormals.iter().copied().fold(DVec3::ZERO, |a, b| {
+            if b.length() > a.length() { b } else { a }
+        });
         if largest.length() <= FLAT {
             return Err(Error::Inflection { side: 0, t: 0.0 });
         }
         let direction = largest.normalize();
-        let planar = binormals.iter().all(|b| b.cross(direction).length() <= FLAT * largest.length());
-        let normal = if planar { Normal::Planar(direction) } else { Normal::Principal };
-        Ok(Self { curve, normal, straight: false, sign: 1.0 })
+        let planar = binormals
+            .iter()
+            .all(|b| b.cross(direction).length() <= FLAT * largest.length());
+        let normal = if planar {
+            Normal::Planar(direction)
+        } else {
+            Normal::Principal
+        };
+        Ok(Self {
+            curve,
+            normal,
+            straight: false,
+            sign: 1.0,
+        })
     }
 
     /// The strip of a curve with the surface's normal given along it, of any length: for straight lines, for
@@ -110,20 +130,34 @@ impl GeodesicStrip {
     ///
     /// # Errors
     /// [`Error::NonFinite`], or [`Error::ZeroVector`] where the normal is along the curve.
-    pub fn with_normal(curve: impl Curve + 'static, normal: impl Curve + 'static) -> Result<Self, Error> {
-        let mut strip =
-            Self { curve: Arc::new(curve), normal: Normal::Given(Arc::new(normal)), straight: true, sign: 1.0 };
+    pub fn with_normal(
+        curve: impl Curve + 'static,
+        normal: impl Curve + 'static,
+    ) -> Result<Self, Error> {
+        let mut strip = Self {
+            curve: Arc::new(curve),
+            normal: Normal::Given(Arc::new(normal)),
+            straight: true,
+            sign: 1.0,
+        };
         for index in 0..=PROBES {
             let t = index as f64 / PROBES as f64;
             let (r, normal) = (strip.curve.series(t), strip.normal_direction(t));
             if !(r.is_finite() && normal.is_finite()) {
-                return Err(Error::NonFinite { what: "point or normal of the curve at probe", index });
+                return Err(Error::NonFinite {
+                    what: "point or normal of the curve at probe",
+                    index,
+                });
             }
             let [_, velocity, acceleration] = r.first_three();
-            strip.straight &= velocity.cross(acceleration).length() <= FLAT * velocity.length_squared();
+            strip.straight &=
+                velocity.cross(acceleration).length() <= FLAT * velocity.length_squared();
             let tangent = velocity.normalize_or_zero();
             if tangent.cross(normal.normalize_or_zero()).length() < FLAT {
-                return Err(Error::ZeroVector { what: "normal across the curve at probe", index });
+                return Err(Error::ZeroVector {
+                    what: "normal across the curve at probe",
+                    index,
+                });
             }
         }
         Ok(strip)
@@ -139,7 +173,10 @@ impl GeodesicStrip {
     /// The same strip seen from its other side: `across` reversed.
     #[must_use]
     pub fn flipped(self) -> Self {
-        Self { sign: -self.sign, ..self }
+        Self {
+            sign: -self.sign,
+            ..self
+        }
     }
 
     /// The curve.
@@ -195,7 +232,8 @@ mod tests {
 
     #[test]
     fn a_helix_lies_on_its_cylinder() {
-        let strip = GeodesicStrip::new(AnalyticCurve::new(|t| [t.cos(), t.sin(), t * 0.4])).unwrap();
+        let strip =
+            GeodesicStrip::new(AnalyticCurve::new(|t| [t.cos(), t.sin(), t * 0.4])).unwrap();
         let sample = strip.sample(0.6);
         let radial = DVec3::new(0.6f64.cos(), 0.6f64.sin(), 0.0);
         assert!((sample.normal().dot(radial).abs() - 1.0).abs() < 1e-15);
@@ -207,18 +245,30 @@ mod tests {
 
     #[test]
     fn plane_curves_pass_their_inflections_and_lines_need_a_normal() {
-        let wave = GeodesicStrip::new(AnalyticCurve::new(|t| [t, ((t - 0.5) * 3.0).sin(), t * 0.0])).unwrap();
+        let wave = GeodesicStrip::new(AnalyticCurve::new(|t| {
+            [t, ((t - 0.5) * 3.0).sin(), t * 0.0]
+        }))
+        .unwrap();
         assert!(wave.passes_inflections());
         assert!((wave.sample(0.5).across[0].z.abs() - 1.0).abs() < 1e-15);
         let line = || AnalyticCurve::new(|t| [t, t * 2.0, t * 0.0]);
-        assert!(matches!(GeodesicStrip::new(line()), Err(Error::Inflection { .. })));
+        assert!(matches!(
+            GeodesicStrip::new(line()),
+            Err(Error::Inflection { .. })
+        ));
         let normal = AnalyticCurve::new(|t| [t * 0.0, t.sin(), t.cos()]);
         let strip = GeodesicStrip::with_normal(line(), normal).unwrap();
         let sample = strip.sample(0.3);
         assert!(sample.across[0].dot(sample.point[1]).abs() < 1e-15);
         let along = AnalyticCurve::new(|t| [t * 0.0 + 1.0, t * 0.0 + 2.0, t * 0.0]);
-        assert!(matches!(GeodesicStrip::with_normal(line(), along), Err(Error::ZeroVector { .. })));
+        assert!(matches!(
+            GeodesicStrip::with_normal(line(), along),
+            Err(Error::ZeroVector { .. })
+        ));
         let broken = AnalyticCurve::new(|t| [t.sqrt(), t, t]);
-        assert!(matches!(GeodesicStrip::new(broken), Err(Error::NonFinite { .. })));
+        assert!(matches!(
+            GeodesicStrip::new(broken),
+            Err(Error::NonFinite { .. })
+        ));
     }
 }

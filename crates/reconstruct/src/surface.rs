@@ -44,7 +44,10 @@ impl Curvatures {
         let normal = cross / area.sqrt();
         let [e, f, g] = [at.du.dot(at.du), at.du.dot(at.dv), at.dv.dot(at.dv)];
         let [l, m, n] = [at.duu, at.duv, at.dvv].map(|second| second.dot(normal));
-        Self { gaussian: (l * n - m * m) / area, mean: 0.5 * (e * n - 2.0 * f * m + g * l) / area }
+        Self {
+            gaussian: (l * n - m * m) / area,
+            mean: 0.5 * (e * n - 2.0 * f * m + g * l) / area,
+        }
     }
 }
 
@@ -82,16 +85,29 @@ pub fn boundary_geodesic_curvature(surface: &impl Surface, samples: usize) -> f6
                 let t = i as f64 / n as f64;
                 let [u, v] = [[t, 0.0], [0.0, t], [t, 1.0], [1.0, t]][side];
                 let at = surface.partials(u, v);
-                let (first, second) = if side % 2 == 0 { (at.du, at.duu) } else { (at.dv, at.dvv) };
+                let (first, second) = if side % 2 == 0 {
+                    (at.du, at.duu)
+                } else {
+                    (at.dv, at.dvv)
+                };
                 (first, second, at.du.cross(at.dv))
             })
             .collect();
-        let length = along.iter().map(|(velocity, ..)| velocity.length()).sum::<f64>() / along.len() as f64;
+        let length = along
+            .iter()
+            .map(|(velocity, ..)| velocity.length())
+            .sum::<f64>()
+            / along.len() as f64;
         for (velocity, acceleration, normal) in along {
             let curvature = velocity.cross(acceleration).length() / velocity.length().powi(3);
-            let relative = geodesic_curvature(velocity, acceleration, normal).abs() / (1.0 / length + curvature);
+            let relative = geodesic_curvature(velocity, acceleration, normal).abs()
+                / (1.0 / length + curvature);
             // A boundary that is not even finite is as far from a geodesic as can be.
-            worst = worst.max(if relative.is_finite() { relative } else { f64::INFINITY });
+            worst = worst.max(if relative.is_finite() {
+                relative
+            } else {
+                f64::INFINITY
+            });
         }
     }
     worst
@@ -117,7 +133,11 @@ pub fn tessellate(surface: &impl Surface, rows: usize, columns: usize) -> Tessel
     let mut mesh = Tessellation::default();
     for i in 0..=rows {
         for j in 0..=columns {
-            push_vertex(&mut mesh, surface, [i as f64 / rows as f64, j as f64 / columns as f64]);
+            push_vertex(
+                &mut mesh,
+                surface,
+                [i as f64 / rows as f64, j as f64 / columns as f64],
+            );
         }
     }
     for i in 0..rows {
@@ -137,7 +157,11 @@ pub fn tessellate_triangle(surface: &impl Surface, n: usize) -> Tessellation {
     let mut row = 0;
     for i in 0..=n {
         for j in 0..=n - i {
-            push_vertex(&mut mesh, surface, [i as f64 / n as f64, j as f64 / n as f64]);
+            push_vertex(
+                &mut mesh,
+                surface,
+                [i as f64 / n as f64, j as f64 / n as f64],
+            );
         }
         let next = row + n - i + 1;
         for j in 0..n - i {
@@ -180,14 +204,23 @@ mod tests {
     #[test]
     fn curvatures_at_a_vertex() {
         let curvatures = Paraboloid.curvatures(0.0, 0.0);
-        assert_eq!(curvatures, Curvatures { gaussian: 3.0, mean: 2.0 });
+        assert_eq!(
+            curvatures,
+            Curvatures {
+                gaussian: 3.0,
+                mean: 2.0
+            }
+        );
         // The meridians through the vertex are geodesics, the other two boundaries are not.
         assert!(boundary_geodesic_curvature(&Paraboloid, 8) > 0.1);
     }
 
     #[test]
     fn meshes_cover_their_domains_counter_clockwise() {
-        for (mesh, area) in [(tessellate(&Paraboloid, 3, 5), 1.0), (tessellate_triangle(&Paraboloid, 4), 0.5)] {
+        for (mesh, area) in [
+            (tessellate(&Paraboloid, 3, 5), 1.0),
+            (tessellate_triangle(&Paraboloid, 4), 0.5),
+        ] {
             let mut sum = 0.0;
             for [a, b, c] in &mesh.triangles {
                 let [a, b, c] = [a, b, c].map(|i| glam::DVec2::from_array(mesh.parameters[*i]));

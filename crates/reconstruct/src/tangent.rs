@@ -39,19 +39,37 @@ struct Channel {
 
 impl Channel {
     fn new(sensors: &[Sensor], magnetic: bool, places: &[f64]) -> Result<Self, Error> {
-        let mine: Vec<usize> = (0..sensors.len()).filter(|i| sensors[*i].is_magnetometer() == magnetic).collect();
+        let mine: Vec<usize> = (0..sensors.len())
+            .filter(|i| sensors[*i].is_magnetometer() == magnetic)
+            .collect();
         if mine.len() < NEEDED {
-            let what = if magnetic { "magnetometers" } else { "accelerometers" };
-            return Err(Error::TooFew { what, needed: NEEDED, got: mine.len() });
+            let what = if magnetic {
+                "magnetometers"
+            } else {
+                "accelerometers"
+            };
+            return Err(Error::TooFew {
+                what,
+                needed: NEEDED,
+                got: mine.len(),
+            });
         }
         let knots: Vec<f64> = mine.iter().map(|i| sensors[*i].s).collect();
         let system = SplineSystem::new(&knots, EndCondition::NotAKnot)?;
         let everywhere = places.iter().map(|s| stencil(&knots, *s)).collect();
-        Ok(Self { sensors: mine, system, everywhere })
+        Ok(Self {
+            sensors: mine,
+            system,
+            everywhere,
+        })
     }
 
     fn value(&self, place: usize, values: &[DVec3], moments: &[DVec3]) -> DVec3 {
-        let Stencil { first: i, values: [a, b], moments: [p, q] } = self.everywhere[place];
+        let Stencil {
+            first: i,
+            values: [a, b],
+            moments: [p, q],
+        } = self.everywhere[place];
         values[i] * a + values[i + 1] * b + moments[i] * p + moments[i + 1] * q
     }
 }
@@ -62,7 +80,11 @@ fn stencil(knots: &[f64], s: f64) -> Stencil {
     let b = (s - knots[first]) / h;
     let a = 1.0 - b;
     let sixth = h * h / 6.0;
-    Stencil { first, values: [a, b], moments: [(a * a * a - a) * sixth, (b * b * b - b) * sixth] }
+    Stencil {
+        first,
+        values: [a, b],
+        moments: [(a * a * a - a) * sixth, (b * b * b - b) * sixth],
+    }
 }
 
 /// Where the sensors of a ribbon sit and what they measure, with all that can be computed before a reading.
@@ -109,19 +131,35 @@ impl RibbonLayout {
     /// # Errors
     /// [`Error::TooFew`] below three of either kind; [`Error::NotIncreasing`], [`Error::NonFinite`] for
     /// their arc lengths.
-    pub fn new(sensors: impl IntoIterator<Item = Sensor>, world: WorldFields) -> Result<Self, Error> {
+    pub fn new(
+        sensors: impl IntoIterator<Item = Sensor>,
+        world: WorldFields,
+    ) -> Result<Self, Error> {
         let sensors: Vec<Sensor> = sensors.into_iter().collect();
         if let Some(index) = sensors.iter().position(|sensor| !sensor.s.is_finite()) {
-            return Err(Error::NonFinite { what: "arc length", index });
+            return Err(Error::NonFinite {
+                what: "arc length",
+                index,
+            });
         }
         let mut places: Vec<f64> = sensors.iter().map(|sensor| sensor.s).collect();
         places.sort_by(f64::total_cmp);
         places.dedup();
         let gravity = Channel::new(&sensors, false, &places)?;
         let magnetic = Channel::new(&sensors, true, &places)?;
-        let gravity_at_magnetometers =
-            magnetic.sensors.iter().map(|i| stencil(gravity.system.knots(), sensors[*i].s)).collect();
-        Ok(Self { sensors, world, places, gravity, magnetic, gravity_at_magnetometers })
+        let gravity_at_magnetometers = magnetic
+            .sensors
+            .iter()
+            .map(|i| stencil(gravity.system.knots(), sensors[*i].s))
+            .collect();
+        Ok(Self {
+            sensors,
+            world,
+            places,
+            gravity,
+            magnetic,
+            gravity_at_magnetometers,
+        })
     }
 
     /// The sensors, in the order of their readings.
@@ -146,12 +184,24 @@ impl RibbonLayout {
         let mut values = vec![DVec3::ZERO; self.places.len()];
         self.tangents_into(readings, &mut scratch, &mut values)?;
         let sensitivity = self.sensitivity(&scratch);
-        Ok(Tangents { s: self.places.clone(), values, sensitivity })
+        Ok(Tangents {
+            s: self.places.clone(),
+            values,
+            sensitivity,
+        })
     }
 
     pub(crate) fn scratch(&self) -> Scratch {
-        let (g, m) = (vec![DVec3::ZERO; self.gravity.sensors.len()], vec![DVec3::ZERO; self.magnetic.sensors.len()]);
-        Scratch { gravity: g.clone(), gravity_moments: g, magnetic: m.clone(), magnetic_moments: m }
+        let (g, m) = (
+            vec![DVec3::ZERO; self.gravity.sensors.len()],
+            vec![DVec3::ZERO; self.magnetic.sensors.len()],
+        );
+        Scratch {
+            gravity: g.clone(),
+            gravity_moments: g,
+            magnetic: m.clone(),
+            magnetic_moments: m,
+        }
     }
 
     /// As [`RibbonLayout::tangents`], into buffers of the right size, without allocating.
@@ -162,32 +212,51 @@ impl RibbonLayout {
         tangents: &mut [DVec3],
     ) -> Result<(), Error> {
         if readings.len() != self.sensors.len() {
-            return Err(Error::LengthMismatch { what: "readings", expected: self.sensors.len(), got: readings.len() });
+            return Err(Error::LengthMismatch {
+                what: "readings",
+                expected: self.sensors.len(),
+                got: readings.len(),
+            });
         }
         self.read(&self.gravity, readings, &mut scratch.gravity)?;
-        self.gravity.system.moments_into(&scratch.gravity, &mut scratch.gravity_moments);
+        self.gravity
+            .system
+            .moments_into(&scratch.gravity, &mut scratch.gravity_moments);
         self.read(&self.magnetic, readings, &mut scratch.magnetic)?;
         self.complete_two_axis(scratch)?;
-        self.magnetic.system.moments_into(&scratch.magnetic, &mut scratch.magnetic_moments);
+        self.magnetic
+            .system
+            .moments_into(&scratch.magnetic, &mut scratch.magnetic_moments);
         for (place, tangent) in tangents.iter_mut().enumerate() {
             let [a, m] = self.fields(place, scratch);
             for field in [a, m] {
                 let length = field.length();
                 if !(length >= NEAR_ZERO) {
-                    return Err(Error::TangentLost { s: self.places[place], length });
+                    return Err(Error::TangentLost {
+                        s: self.places[place],
+                        length,
+                    });
                 }
             }
             let (a, m) = (a.normalize(), m.normalize());
             let sine = a.cross(m).length();
             if sine < PARALLEL_FIELDS {
-                return Err(Error::ParallelFields { s: self.places[place], sine });
+                return Err(Error::ParallelFields {
+                    s: self.places[place],
+                    sine,
+                });
             }
             *tangent = self.frame(a, m).x_axis;
         }
         Ok(())
     }
 
-    fn read(&self, channel: &Channel, readings: &[DVec3], values: &mut [DVec3]) -> Result<(), Error> {
+    fn read(
+        &self,
+        channel: &Channel,
+        readings: &[DVec3],
+        values: &mut [DVec3],
+    ) -> Result<(), Error> {
         for (value, &sensor) in values.iter_mut().zip(&channel.sensors) {
             let Sensor { calibration, .. } = &self.sensors[sensor];
             *value = calibration
@@ -200,8 +269,10 @@ impl RibbonLayout {
     /// Both fields in the body frame at a place, not normalised.
     fn fields(&self, place: usize, scratch: &Scratch) -> [DVec3; 2] {
         [
-            self.gravity.value(place, &scratch.gravity, &scratch.gravity_moments),
-            self.magnetic.value(place, &scratch.magnetic, &scratch.magnetic_moments),
+            self.gravity
+                .value(place, &scratch.gravity, &scratch.gravity_moments),
+            self.magnetic
+                .value(place, &scratch.magnetic, &scratch.magnetic_moments),
         ]
     }
 
@@ -212,21 +283,33 @@ impl RibbonLayout {
         let mut before: Option<f64> = None;
         for (i, &sensor) in self.magnetic.sensors.iter().enumerate() {
             if self.sensors[sensor].kind == SensorKind::MagnetometerTwoAxis {
-                let Stencil { first, values, moments } = self.gravity_at_magnetometers[i];
+                let Stencil {
+                    first,
+                    values,
+                    moments,
+                } = self.gravity_at_magnetometers[i];
                 let a = scratch.gravity[first] * values[0]
                     + scratch.gravity[first + 1] * values[1]
                     + scratch.gravity_moments[first] * moments[0]
                     + scratch.gravity_moments[first + 1] * moments[1];
-                let a = a.try_normalize().ok_or(Error::TangentLost { s: self.sensors[sensor].s, length: 0.0 })?;
+                let a = a.try_normalize().ok_or(Error::TangentLost {
+                    s: self.sensors[sensor].s,
+                    length: 0.0,
+                })?;
                 let m = &mut scratch.magnetic[i];
                 let from_dip = |a: DVec3| (dip - a.x * m.x - a.y * m.y) / a.z;
                 m.z = if a.z.abs() > NORMAL_GRAVITY {
                     from_dip(a)
                 } else {
                     let size = (1.0 - m.x * m.x - m.y * m.y).max(0.0).sqrt();
-                    size.copysign(before.unwrap_or_else(|| if a.z == 0.0 { 1.0 } else { from_dip(a) }))
+                    size.copysign(
+                        before.unwrap_or_else(|| if a.z == 0.0 { 1.0 } else { from_dip(a) }),
+                    )
                 };
-                *m = m.try_normalize().ok_or(Error::TangentLost { s: self.sensors[sensor].s, length: 0.0 })?;
+                *m = m.try_normalize().ok_or(Error::TangentLost {
+                    s: self.sensors[sensor].s,
+                    length: 0.0,
+                })?;
             }
             before = Some(scratch.magnetic[i].z);
         }
@@ -246,8 +329,13 @@ impl RibbonLayout {
         for channel in [&self.gravity, &self.magnetic] {
             let cardinals = cardinal_values(channel, self.places.len());
             for place in 0..self.places.len() {
-                let [by_gravity, by_magnetic] = tangent_derivatives(world, self.fields(place, scratch));
-                let by_field = if core::ptr::eq(channel, &self.gravity) { by_gravity } else { by_magnetic };
+                let [by_gravity, by_magnetic] =
+                    tangent_derivatives(world, self.fields(place, scratch));
+                let by_field = if core::ptr::eq(channel, &self.gravity) {
+                    by_gravity
+                } else {
+                    by_magnetic
+                };
                 for (k, &sensor) in channel.sensors.iter().enumerate() {
                     let block = by_field * cardinals[(place, k)];
                     for (row, column) in (0..9).map(|n| (n % 3, n / 3)) {
@@ -269,8 +357,13 @@ fn cardinal_values(channel: &Channel, places: usize) -> DMatrix<f64> {
         let unit: Vec<f64> = (0..n).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
         channel.system.moments_into(&unit, &mut moments);
         for place in 0..places {
-            let Stencil { first: i, values: [a, b], moments: [p, q] } = channel.everywhere[place];
-            matrix[(place, k)] = a * unit[i] + b * unit[i + 1] + p * moments[i] + q * moments[i + 1];
+            let Stencil {
+                first: i,
+                values: [a, b],
+                moments: [p, q],
+            } = channel.everywhere[place];
+            matrix[(place, k)] =
+                a * unit[i] + b * unit[i + 1] + p * moments[i] + q * moments[i + 1];
         }
     }
     matrix
@@ -296,13 +389,21 @@ fn tangent_derivatives(world: DMat3, [gravity, magnetic]: [DVec3; 2]) -> [DMat3;
     let (a, m) = (gravity.normalize(), magnetic.normalize());
     let cross = a.cross(m);
     let across = cross.normalize();
-    [(normalising(gravity), DMat3::ZERO), (DMat3::ZERO, normalising(magnetic))].map(|(da, dm)| {
+    [
+        (normalising(gravity), DMat3::ZERO),
+        (DMat3::ZERO, normalising(magnetic)),
+    ]
+    .map(|(da, dm)| {
         let d_across = normalising(cross) * (cross_matrix(a) * dm - cross_matrix(m) * da);
         let d_third = cross_matrix(a) * d_across - cross_matrix(across) * da;
         // The tangent is the sum of the world axes times the x components of the body axes.
-        [(world.x_axis, da), (world.y_axis, d_across), (world.z_axis, d_third)]
-            .into_iter()
-            .fold(DMat3::ZERO, |sum, (axis, d)| sum + outer(axis, d.row(0)))
+        [
+            (world.x_axis, da),
+            (world.y_axis, d_across),
+            (world.z_axis, d_third),
+        ]
+        .into_iter()
+        .fold(DMat3::ZERO, |sum, (axis, d)| sum + outer(axis, d.row(0)))
     })
 }
 
@@ -342,16 +443,25 @@ impl Tangents {
     ///
     /// # Errors
     /// [`Error::LengthMismatch`] for another ribbon.
-    pub fn position_covariance(&self, ribbon: &SpatialRibbon, sigma: f64) -> Result<Vec<DMat3>, Error> {
+    pub fn position_covariance(
+        &self,
+        ribbon: &SpatialRibbon,
+        sigma: f64,
+    ) -> Result<Vec<DMat3>, Error> {
         if ribbon.tangents().len() != self.values.len() {
             let (expected, got) = (self.values.len(), ribbon.tangents().len());
-            return Err(Error::LengthMismatch { what: "tangents of the ribbon", expected, got });
+            return Err(Error::LengthMismatch {
+                what: "tangents of the ribbon",
+                expected,
+                got,
+            });
         }
         Ok(ribbon
             .positions_sensitivity()
             .iter()
             .map(|row| {
-                let by_tangents = DMatrix::from_fn(3, 3 * row.len(), |i, j| row[j / 3].col(j % 3)[i]);
+                let by_tangents =
+                    DMatrix::from_fn(3, 3 * row.len(), |i, j| row[j / 3].col(j % 3)[i]);
                 let by_readings = by_tangents * &self.sensitivity;
                 let covariance = &by_readings * by_readings.transpose() * (sigma * sigma);
                 DMat3::from_cols_array(&core::array::from_fn(|n| covariance[(n % 3, n / 3)]))
@@ -373,22 +483,38 @@ mod tests {
     }
 
     fn layout(n: usize, length: f64, second: SensorKind) -> RibbonLayout {
-        let kind = |i: usize| if i.is_multiple_of(2) { SensorKind::Accelerometer } else { second };
+        let kind = |i: usize| {
+            if i.is_multiple_of(2) {
+                SensorKind::Accelerometer
+            } else {
+                second
+            }
+        };
         let sensor = |i: usize| Sensor::new(length * i as f64 / n as f64, kind(i));
         RibbonLayout::new((0..=n).map(sensor), WorldFields::with_dip(1.08).unwrap()).unwrap()
     }
 
     fn readings(layout: &RibbonLayout) -> Vec<DVec3> {
         let field = |sensor: &Sensor| {
-            if sensor.is_magnetometer() { layout.world.magnetic() } else { layout.world.up() }
+            if sensor.is_magnetometer() {
+                layout.world.magnetic()
+            } else {
+                layout.world.up()
+            }
         };
-        layout.sensors.iter().map(|sensor| frame(sensor.s).transpose() * field(sensor)).collect()
+        layout
+            .sensors
+            .iter()
+            .map(|sensor| frame(sensor.s).transpose() * field(sensor))
+            .collect()
     }
 
     fn error(layout: &RibbonLayout) -> f64 {
         let tangents = layout.tangents(&readings(layout)).unwrap();
         let pairs = tangents.s.iter().zip(&tangents.values);
-        pairs.map(|(s, t)| (frame(*s).x_axis - *t).length()).fold(0.0, f64::max)
+        pairs
+            .map(|(s, t)| (frame(*s).x_axis - *t).length())
+            .fold(0.0, f64::max)
     }
 
     #[test]
@@ -422,13 +548,20 @@ mod tests {
         let runs = 2000;
         let mut measured = DMat3::ZERO;
         for _ in 0..runs {
-            let noisy: Vec<DVec3> = exact.iter().map(|r| *r + noise.gaussian_vector() * sigma).collect();
-            let end = layout.tangents(&noisy).unwrap().ribbon().unwrap().points()[16] - ribbon.points()[16];
+            let noisy: Vec<DVec3> = exact
+                .iter()
+                .map(|r| *r + noise.gaussian_vector() * sigma)
+                .collect();
+            let end = layout.tangents(&noisy).unwrap().ribbon().unwrap().points()[16]
+                - ribbon.points()[16];
             measured += outer(end, end) * (1.0 / f64::from(runs));
         }
         let trace = |m: DMat3| m.x_axis.x + m.y_axis.y + m.z_axis.z;
         // 2,000 draws: relative standard error of a variance 3.2 %; four of them.
-        assert!((trace(measured) / trace(predicted) - 1.0).abs() < 0.13, "{measured} {predicted}");
+        assert!(
+            (trace(measured) / trace(predicted) - 1.0).abs() < 0.13,
+            "{measured} {predicted}"
+        );
     }
 
     #[test]
@@ -441,18 +574,48 @@ mod tests {
             bad[index] = value;
             layout.tangents(&bad)
         };
-        assert!(matches!(with(3, DVec3::NAN), Err(Error::Reading { sensor: 3, fault: ReadingFault::NonFinite })));
-        assert!(matches!(with(4, DVec3::ZERO), Err(Error::Reading { sensor: 4, fault: ReadingFault::FieldLost { .. } })));
-        assert!(matches!(layout.tangents(&good[1..]), Err(Error::LengthMismatch { .. })));
+        assert!(matches!(
+            with(3, DVec3::NAN),
+            Err(Error::Reading {
+                sensor: 3,
+                fault: ReadingFault::NonFinite
+            })
+        ));
+        assert!(matches!(
+            with(4, DVec3::ZERO),
+            Err(Error::Reading {
+                sensor: 4,
+                fault: ReadingFault::FieldLost { .. }
+            })
+        ));
+        assert!(matches!(
+            layout.tangents(&good[1..]),
+            Err(Error::LengthMismatch { .. })
+        ));
         let mut sensors = layout.sensors().to_vec();
         let limit = Calibration::new(DVec3::ZERO, DVec3::ONE, DMat3::IDENTITY, 0.5, 1.0).unwrap();
         sensors[0] = sensors[0].with_calibration(limit);
         let limited = RibbonLayout::new(sensors, layout.world).unwrap();
         let fault = limited.tangents(&good);
-        assert!(matches!(fault, Err(Error::Reading { sensor: 0, fault: ReadingFault::Saturated { .. } })), "{fault:?}");
+        assert!(
+            matches!(
+                fault,
+                Err(Error::Reading {
+                    sensor: 0,
+                    fault: ReadingFault::Saturated { .. }
+                })
+            ),
+            "{fault:?}"
+        );
         let same = vec![DVec3::Z; 9];
-        assert!(matches!(layout.tangents(&same), Err(Error::ParallelFields { .. })));
+        assert!(matches!(
+            layout.tangents(&same),
+            Err(Error::ParallelFields { .. })
+        ));
         let few = (0..5).map(|i| Sensor::new(f64::from(i), SensorKind::Accelerometer));
-        assert!(matches!(RibbonLayout::new(few, layout.world), Err(Error::TooFew { .. })));
+        assert!(matches!(
+            RibbonLayout::new(few, layout.world),
+            Err(Error::TooFew { .. })
+        ));
     }
 }

@@ -7,7 +7,9 @@
 //! transverse derivatives, with weights `a_i = l_i² (3 - 2 l_i + 6 l_j l_k)` that add up to one and have a double
 //! zero on the opposite side.
 
-use crate::conditions::{BoundaryReport, CONDITION_TOLERANCE, Corner, CornerCurve, CornerCurves, check};
+use crate::conditions::{
+    BoundaryReport, CONDITION_TOLERANCE, Corner, CornerCurve, CornerCurves, check,
+};
 use crate::coons::{TransverseField, normal_twist};
 use crate::hermite::{hermite, least_same_sign};
 use crate::quadrature;
@@ -27,10 +29,23 @@ pub type TriangleTwists = [[f64; 2]; 3];
 pub fn check_triangle<S: Strip>(strips: &[S; 3], tolerance: f64) -> BoundaryReport {
     let corners: [CornerCurves; 3] = from_fn(|i| CornerCurves {
         corner: Corner::Triangle(i),
-        first: CornerCurve { side: (i + 2) % 3, t: 0.0, outward: 1.0 },
-        second: CornerCurve { side: (i + 1) % 3, t: 1.0, outward: -1.0 },
+        first: CornerCurve {
+            side: (i + 2) % 3,
+            t: 0.0,
+            outward: 1.0,
+        },
+        second: CornerCurve {
+            side: (i + 1) % 3,
+            t: 1.0,
+            outward: -1.0,
+        },
     });
-    check(strips, &corners, &[(2, false), (0, false), (1, false)], tolerance)
+    check(
+        strips,
+        &corners,
+        &[(2, false), (0, false), (1, false)],
+        tolerance,
+    )
 }
 
 /// What a vertex fixes.
@@ -74,10 +89,15 @@ impl<S: Strip> Triangle<S> {
         if !report.violations.is_empty() {
             return Err(Error::Conditions(report.violations));
         }
-        if let Some(&(side, t)) = report.inflections.iter().find(|(side, _)| !strips[*side].passes_inflections()) {
+        if let Some(&(side, t)) = report
+            .inflections
+            .iter()
+            .find(|(side, _)| !strips[*side].passes_inflections())
+        {
             return Err(Error::Inflection { side, t });
         }
-        let ends: [[StripSample; 2]; 3] = from_fn(|k| [strips[k].sample(0.0), strips[k].sample(1.0)]);
+        let ends: [[StripSample; 2]; 3] =
+            from_fn(|k| [strips[k].sample(0.0), strips[k].sample(1.0)]);
         let vertices = from_fn(|i| {
             let (leaving, arriving) = (&ends[(i + 2) % 3][0], &ends[(i + 1) % 3][1]);
             let (to_next, to_previous) = (leaving.point[1], -arriving.point[1]);
@@ -87,7 +107,8 @@ impl<S: Strip> Triangle<S> {
             // field is `B' + d_next` and the twist `B''` less its derivative.
             let from_leaving = normal_twist(leaving, to_previous, normal);
             let field = arriving.point[1] + to_next;
-            let from_arriving = arriving.point[2].dot(normal) - normal_twist(arriving, field, normal);
+            let from_arriving =
+                arriving.point[2].dot(normal) - normal_twist(arriving, field, normal);
             Vertex {
                 point: 0.5 * (leaving.point[0] + arriving.point[0]),
                 sides: [to_next, to_previous],
@@ -97,7 +118,12 @@ impl<S: Strip> Triangle<S> {
                 angle: cross.length().atan2(to_next.dot(to_previous)),
             }
         });
-        Ok(Self { strips, ends, vertices, report })
+        Ok(Self {
+            strips,
+            ends,
+            vertices,
+            report,
+        })
     }
 
     /// The boundary strips.
@@ -137,10 +163,18 @@ impl<S: Strip> Triangle<S> {
     /// [`Error::NonFinite`]; [`Error::IrregularBoundary`] when a transverse derivative becomes tangent to its side.
     pub fn patch(&self, twists: TriangleTwists) -> Result<TrianglePatch<S>, Error> {
         if let Some(index) = twists.iter().flatten().position(|w| !w.is_finite()) {
-            return Err(Error::NonFinite { what: "twist component", index });
+            return Err(Error::NonFinite {
+                what: "twist component",
+                index,
+            });
         }
         let vectors: [DVec3; 3] = from_fn(|i| {
-            let Vertex { tangents, normal, twist_normal, .. } = &self.vertices[i];
+            let Vertex {
+                tangents,
+                normal,
+                twist_normal,
+                ..
+            } = &self.vertices[i];
             tangents[0] * twists[i][0] + tangents[1] * twists[i][1] + *normal * *twist_normal
         });
         let fields: [TransverseField; 3] = from_fn(|k| {
@@ -148,17 +182,31 @@ impl<S: Strip> Triangle<S> {
             let [first, last] = &self.ends[k];
             let mut field = TransverseField::default();
             field.set_end(0, first, self.vertices[start].sides[1], vectors[start]);
-            field.set_end(1, last, last.point[1] + self.vertices[end].sides[0], last.point[2] - vectors[end]);
+            field.set_end(
+                1,
+                last,
+                last.point[1] + self.vertices[end].sides[0],
+                last.point[2] - vectors[end],
+            );
             field
         });
         for (side, field) in fields.iter().enumerate() {
             let scale = field.across[0].abs().max(field.across[3].abs());
             let (least, t) = least_same_sign(field.across);
             if !(least > REGULAR * scale) {
-                return Err(Error::IrregularBoundary { side, t, across: least / scale });
+                return Err(Error::IrregularBoundary {
+                    side,
+                    t,
+                    across: least / scale,
+                });
             }
         }
-        Ok(TrianglePatch { triangle: self.clone(), twists, vectors, fields })
+        Ok(TrianglePatch {
+            triangle: self.clone(),
+            twists,
+            vectors,
+            fields,
+        })
     }
 
     /// The patch of least thin-plate energy over a domain triangle, whose shape says how the parameters are to be
@@ -172,7 +220,8 @@ impl<S: Strip> Triangle<S> {
         let flat = self.patch([[0.0; 2]; 3])?;
         // The construction is affine in the twists: unit steps give the basis exactly.
         let moved: Vec<TrianglePatch<S>> = (0..6).map(|k| flat.with_step(k)).collect();
-        let (mut matrix, mut gradient) = (SMatrix::<f64, 6, 6>::zeros(), SVector::<f64, 6>::zeros());
+        let (mut matrix, mut gradient) =
+            (SMatrix::<f64, 6, 6>::zeros(), SVector::<f64, 6>::zeros());
         let mut energy_at_zero = 0.0;
         for (l, weight) in &plate.rule {
             let samples = flat.samples(*l);
@@ -190,11 +239,19 @@ impl<S: Strip> Triangle<S> {
                 }
             }
         }
-        let w = matrix.cholesky().ok_or(Error::DegenerateEnergy)?.solve(&-gradient);
+        let w = matrix
+            .cholesky()
+            .ok_or(Error::DegenerateEnergy)?
+            .solve(&-gradient);
         let mut eigenvalues: [f64; 6] = matrix.symmetric_eigenvalues().into();
         eigenvalues.sort_by(f64::total_cmp);
         let patch = self.patch(from_fn(|i| [w[2 * i], w[2 * i + 1]]))?;
-        Ok(SmoothedTriangle { patch, energy: energy_at_zero + gradient.dot(&w), energy_at_zero, eigenvalues })
+        Ok(SmoothedTriangle {
+            patch,
+            energy: energy_at_zero + gradient.dot(&w),
+            energy_at_zero,
+            eigenvalues,
+        })
     }
 }
 
@@ -261,7 +318,10 @@ impl<S: Strip> TrianglePatch<S> {
             let at = self.partials(l[1], l[2]);
             Curvatures::of(&at).gaussian * at.du.cross(at.dv).length()
         };
-        quadrature::triangle(n.max(1)).into_iter().map(|(l, w)| w * area(l)).sum()
+        quadrature::triangle(n.max(1))
+            .into_iter()
+            .map(|(l, w)| w * area(l))
+            .sum()
     }
 
     /// The largest geodesic curvature of the sides, relative to `1/length + curvature`, from `samples + 1` parameters
@@ -283,7 +343,11 @@ impl<S: Strip> TrianglePatch<S> {
                 let curvature = velocity.cross(acceleration).length() / velocity.length().powi(3);
                 let bend = crate::geodesic_curvature(velocity, acceleration, normal).abs();
                 let relative = bend / (1.0 / velocity.length() + curvature);
-                worst = worst.max(if relative.is_finite() { relative } else { f64::INFINITY });
+                worst = worst.max(if relative.is_finite() {
+                    relative
+                } else {
+                    f64::INFINITY
+                });
             }
         }
         worst
@@ -296,7 +360,11 @@ impl<S: Strip> TrianglePatch<S> {
     pub fn thin_plate_energy(&self, domain: [DVec2; 3]) -> Result<f64, Error> {
         let plate = ThinPlate::new(domain)?;
         let density = |l: [f64; 3]| {
-            plate.integrand(&self.jet(l, &self.samples(l))).iter().map(|x| x.length_squared()).sum::<f64>()
+            plate
+                .integrand(&self.jet(l, &self.samples(l)))
+                .iter()
+                .map(|x| x.length_squared())
+                .sum::<f64>()
         };
         Ok(plate.rule.iter().map(|(l, w)| w * density(*l)).sum())
     }
@@ -319,22 +387,32 @@ impl<S: Strip> TrianglePatch<S> {
     fn samples(&self, l: [f64; 3]) -> [SidePair; 3] {
         from_fn(|i| {
             let (x, y) = (l[(i + 1) % 3], l[(i + 2) % 3]);
-            [((i + 2) % 3, x), ((i + 1) % 3, 1.0 - y)].map(|(side, t)| (self.triangle.strips[side].sample(t), hermite(t)))
+            [((i + 2) % 3, x), ((i + 1) % 3, 1.0 - y)]
+                .map(|(side, t)| (self.triangle.strips[side].sample(t), hermite(t)))
         })
     }
 
     /// The interpolant of vertex `i`: value, by x, by y, by xx, xy, yy, with `x = l_(i+1)`, `y = l_(i+2)`:
     /// `A(x) + y D_A(x) + B(1-y) + x (D_B - B')(1-y) - (V + x d_a + y d_b + x y W)`.
     fn interpolant(&self, i: usize, [x, y]: [f64; 2], pair: &SidePair) -> [DVec3; 6] {
-        let Vertex { point, sides: [da, db], .. } = self.triangle.vertices[i];
+        let Vertex {
+            point,
+            sides: [da, db],
+            ..
+        } = self.triangle.vertices[i];
         let twist = self.vectors[i];
         let [(a, a_functions), (b, b_functions)] = pair;
         let d_a = self.fields[(i + 2) % 3].at(a, a_functions);
         let d_b = self.fields[(i + 1) % 3].at(b, b_functions);
         // g(y) = (D_B - B')(1 - y): each derivative changes the sign.
-        let g = [d_b[0] - b.point[1], -(d_b[1] - b.point[2]), d_b[2] - b.point[3]];
+        let g = [
+            d_b[0] - b.point[1],
+            -(d_b[1] - b.point[2]),
+            d_b[2] - b.point[3],
+        ];
         [
-            a.point[0] + d_a[0] * y + b.point[0] + g[0] * x - (point + da * x + db * y + twist * (x * y)),
+            a.point[0] + d_a[0] * y + b.point[0] + g[0] * x
+                - (point + da * x + db * y + twist * (x * y)),
             a.point[1] + d_a[1] * y + g[0] - da - twist * y,
             d_a[0] - b.point[1] + g[1] * x - db - twist * x,
             a.point[2] + d_a[2] * y,
@@ -344,7 +422,11 @@ impl<S: Strip> TrianglePatch<S> {
     }
 
     fn jet(&self, l: [f64; 3], samples: &[SidePair; 3]) -> BarycentricJet {
-        let mut jet = BarycentricJet { value: DVec3::ZERO, first: [DVec3::ZERO; 3], second: [[DVec3::ZERO; 3]; 3] };
+        let mut jet = BarycentricJet {
+            value: DVec3::ZERO,
+            first: [DVec3::ZERO; 3],
+            second: [[DVec3::ZERO; 3]; 3],
+        };
         for i in 0..3 {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
             let [p, px, py, pxx, pxy, pyy] = self.interpolant(i, [l[j], l[k]], &samples[i]);
@@ -357,7 +439,8 @@ impl<S: Strip> TrianglePatch<S> {
             for m in 0..3 {
                 jet.first[m] += p * da[m] + first[m] * a;
                 for n in 0..3 {
-                    jet.second[m][n] += p * dda[m][n] + first[m] * da[n] + first[n] * da[m] + second[m][n] * a;
+                    jet.second[m][n] +=
+                        p * dda[m][n] + first[m] * da[n] + first[n] * da[m] + second[m][n] * a;
                 }
             }
         }
@@ -388,7 +471,11 @@ fn blend(l: [f64; 3], i: usize) -> (f64, [f64; 3], [[f64; 3]; 3]) {
     let (j, k) = ((i + 1) % 3, (i + 2) % 3);
     let (x, y, z) = (l[i], l[j], l[k]);
     let mut first = [0.0; 3];
-    (first[i], first[j], first[k]) = (6.0 * x - 6.0 * x * x + 12.0 * x * y * z, 6.0 * x * x * z, 6.0 * x * x * y);
+    (first[i], first[j], first[k]) = (
+        6.0 * x - 6.0 * x * x + 12.0 * x * y * z,
+        6.0 * x * x * z,
+        6.0 * x * x * y,
+    );
     let mut second = [[0.0; 3]; 3];
     second[i][i] = 6.0 - 12.0 * x + 12.0 * y * z;
     (second[i][j], second[j][i]) = (12.0 * x * z, 12.0 * x * z);
@@ -403,14 +490,21 @@ fn blend(l: [f64; 3], i: usize) -> (f64, [f64; 3], [[f64; 3]; 3]) {
 /// [`Error::OutOfRange`] for a triangle without area, [`Error::NonFinite`].
 pub fn barycentric_gradients(triangle: [DVec2; 3]) -> Result<[DVec2; 3], Error> {
     if let Some(index) = triangle.iter().position(|p| !p.is_finite()) {
-        return Err(Error::NonFinite { what: "domain point", index });
+        return Err(Error::NonFinite {
+            what: "domain point",
+            index,
+        });
     }
     let [a, b, c] = triangle;
     let matrix = DMat3::from_cols(a.extend(1.0), b.extend(1.0), c.extend(1.0));
     let twice_area = (b - a).perp_dot(c - a);
     let size = (b - a).length().max((c - a).length());
     if !(twice_area.abs() > 1e-12 * size * size) {
-        return Err(Error::OutOfRange { what: "area of the domain triangle", value: 0.5 * twice_area, range: [0.0, f64::INFINITY] });
+        return Err(Error::OutOfRange {
+            what: "area of the domain triangle",
+            value: 0.5 * twice_area,
+            range: [0.0, f64::INFINITY],
+        });
     }
     let inverse = matrix.inverse();
     Ok([0, 1, 2].map(|i| inverse.row(i).truncate()))
@@ -428,8 +522,13 @@ struct ThinPlate {
 impl ThinPlate {
     fn new(domain: [DVec2; 3]) -> Result<Self, Error> {
         let gradients = barycentric_gradients(domain)?;
-        let twice_area = (domain[1] - domain[0]).perp_dot(domain[2] - domain[0]).abs();
-        let rule = quadrature::triangle(NODES).into_iter().map(|(l, w)| (l, w * twice_area)).collect();
+        let twice_area = (domain[1] - domain[0])
+            .perp_dot(domain[2] - domain[0])
+            .abs();
+        let rule = quadrature::triangle(NODES)
+            .into_iter()
+            .map(|(l, w)| (l, w * twice_area))
+            .collect();
         Ok(Self { gradients, rule })
     }
 
@@ -455,7 +554,12 @@ mod tests {
     use crate::{AnalyticCurve, Series};
 
     fn great_circles() -> Triangle {
-        let corners = [DVec3::new(1.0, 0.0, 0.1), DVec3::new(0.2, 0.9, 0.0), DVec3::new(0.3, 0.2, 0.9)].map(DVec3::normalize);
+        let corners = [
+            DVec3::new(1.0, 0.0, 0.1),
+            DVec3::new(0.2, 0.9, 0.0),
+            DVec3::new(0.3, 0.2, 0.9),
+        ]
+        .map(DVec3::normalize);
         let arc = |a: DVec3, b: DVec3| {
             let across = (b - a * a.dot(b)).normalize();
             let angle = a.angle_between(b);
@@ -465,7 +569,12 @@ mod tests {
             }))
             .unwrap()
         };
-        Triangle::new([arc(corners[1], corners[2]), arc(corners[2], corners[0]), arc(corners[0], corners[1])]).unwrap()
+        Triangle::new([
+            arc(corners[1], corners[2]),
+            arc(corners[2], corners[0]),
+            arc(corners[0], corners[1]),
+        ])
+        .unwrap()
     }
 
     #[test]
@@ -484,7 +593,9 @@ mod tests {
                 let (before, after) = (moved(-h), moved(h));
                 assert!(((after.0 - before.0) / (2.0 * h) - blend(l, i).1[m]).abs() < 1e-9);
                 for n in 0..3 {
-                    assert!(((after.1[n] - before.1[n]) / (2.0 * h) - blend(l, i).2[m][n]).abs() < 1e-9);
+                    assert!(
+                        ((after.1[n] - before.1[n]) / (2.0 * h) - blend(l, i).2[m][n]).abs() < 1e-9
+                    );
                 }
             }
         }
@@ -493,10 +604,17 @@ mod tests {
     #[test]
     fn derivatives_boundaries_and_total_curvature() {
         let triangle = great_circles();
-        let patch = triangle.patch([[0.143, -0.06], [0.109, 0.209], [-0.041, -0.163]]).unwrap();
+        let patch = triangle
+            .patch([[0.143, -0.06], [0.109, 0.209], [-0.041, -0.163]])
+            .unwrap();
         let (u, v, h) = (0.3, 0.25, 1e-5);
         let at = patch.partials(u, v);
-        let difference = |du: f64, dv: f64| (patch.partials(u + du, v + dv), patch.partials(u - du, v - dv));
+        let difference = |du: f64, dv: f64| {
+            (
+                patch.partials(u + du, v + dv),
+                patch.partials(u - du, v - dv),
+            )
+        };
         let (east, west) = difference(h, 0.0);
         let (north, south) = difference(0.0, h);
         assert!(((east.position - west.position) / (2.0 * h) - at.du).length() < 1e-9);
@@ -518,15 +636,27 @@ mod tests {
         let triangle = great_circles();
         let domain = [DVec2::ZERO, DVec2::new(2.0, 0.3), DVec2::new(0.4, 1.5)];
         let smoothed = triangle.smoothest(domain).unwrap();
-        assert!((smoothed.energy_at_zero - 1.7928).abs() < 1e-4 && (smoothed.energy - 1.3937).abs() < 1e-4);
-        assert!((smoothed.patch.thin_plate_energy(domain).unwrap() - smoothed.energy).abs() < 1e-12);
+        assert!(
+            (smoothed.energy_at_zero - 1.7928).abs() < 1e-4
+                && (smoothed.energy - 1.3937).abs() < 1e-4
+        );
+        assert!(
+            (smoothed.patch.thin_plate_energy(domain).unwrap() - smoothed.energy).abs() < 1e-12
+        );
         let away = |patch: &TrianglePatch| {
-            let nodes = (0..=20).flat_map(|i| (0..=20 - i).map(move |j| [f64::from(i) / 20.0, f64::from(j) / 20.0]));
-            nodes.map(|[u, v]| (patch.point(u, v).length() - 1.0).abs()).fold(0.0, f64::max)
+            let nodes = (0..=20).flat_map(|i| {
+                (0..=20 - i).map(move |j| [f64::from(i) / 20.0, f64::from(j) / 20.0])
+            });
+            nodes
+                .map(|[u, v]| (patch.point(u, v).length() - 1.0).abs())
+                .fold(0.0, f64::max)
         };
         let before = away(&triangle.patch([[0.0; 2]; 3]).unwrap());
         let after = away(&smoothed.patch);
         assert!(after < 3e-3 && before > 2e-2, "{before} {after}");
-        assert!(matches!(triangle.smoothest([DVec2::ZERO; 3]), Err(Error::OutOfRange { .. })));
+        assert!(matches!(
+            triangle.smoothest([DVec2::ZERO; 3]),
+            Err(Error::OutOfRange { .. })
+        ));
     }
 }

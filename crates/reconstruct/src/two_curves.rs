@@ -97,7 +97,11 @@ impl EndField {
         let [p, q] = self.components(u);
         let product = |c: Series, v: &[DVec3; 3]| {
             let c: [f64; 3] = from_fn(|k| c.derivative_at(k));
-            [v[0] * c[0], v[0] * c[1] + v[1] * c[0], v[0] * c[2] + v[1] * (2.0 * c[1]) + v[2] * c[0]]
+            [
+                v[0] * c[0],
+                v[0] * c[1] + v[1] * c[0],
+                v[0] * c[2] + v[1] * (2.0 * c[1]) + v[2] * c[0],
+            ]
         };
         let (a, b) = (product(p, &sample.along), product(q, &sample.across));
         from_fn(|k| a[k] + b[k])
@@ -166,7 +170,10 @@ impl HermiteArc {
             basis: vec![(0, self.directions[0]), (1, self.directions[1])],
         };
         let (values, energy) = problem.minimum(criterion);
-        LeastMagnitudes { magnitudes: [values[0], values[1]], energy }
+        LeastMagnitudes {
+            magnitudes: [values[0], values[1]],
+            energy,
+        }
     }
 }
 
@@ -196,7 +203,10 @@ impl EndVectorProblem {
             x.dot(y) * if i == j { 2.0 * c } else { d }
         });
         let right = DVector::from_fn(n, |k, _| b * self.chord.dot(self.basis[k].1));
-        let values = matrix.lu().solve(&right).unwrap_or_else(|| DVector::zeros(n));
+        let values = matrix
+            .lu()
+            .solve(&right)
+            .unwrap_or_else(|| DVector::zeros(n));
         let energy = a * self.chord.length_squared() - 0.5 * right.dot(&values);
         (values.iter().copied().collect(), energy)
     }
@@ -207,9 +217,11 @@ impl EndVectorProblem {
         let (start, _) = self.minimum(LocalCriterion::Stretching);
         let mut values = DVector::from_vec(start);
         let model = |values: &DVector<f64>| {
-            let (mut energy, mut gradient, mut matrix) = (0.0, DVector::zeros(n), DMatrix::zeros(n, n));
+            let (mut energy, mut gradient, mut matrix) =
+                (0.0, DVector::zeros(n), DMatrix::zeros(n, n));
             // Four panels: the integrand is a quotient and peaks where the speed is small.
-            let panels = (0..4).flat_map(|k| SIX.map(|(x, w)| (0.25 * (f64::from(k) + x), 0.25 * w)));
+            let panels =
+                (0..4).flat_map(|k| SIX.map(|(x, w)| (0.25 * (f64::from(k) + x), 0.25 * w)));
             for (node, weight) in panels {
                 let h = hermite(node);
                 let coefficient = |order: usize, end: usize| h[order][1 + end];
@@ -238,7 +250,9 @@ impl EndVectorProblem {
         let mut damping = 1e-3;
         for _ in 0..LOCAL_STEPS {
             let damped = &matrix + DMatrix::identity(n, n) * (damping * matrix.trace() / n as f64);
-            let Some(step) = damped.lu().solve(&-&gradient) else { break };
+            let Some(step) = damped.lu().solve(&-&gradient) else {
+                break;
+            };
             let trial = &values + &step;
             let (e, g, m) = model(&trial);
             if e <= energy {
@@ -295,21 +309,45 @@ impl TwoCurveSurface {
         for (side, (strip, sample)) in strips.into_iter().zip([a, b]).enumerate() {
             let towards = sample.across[0].dot(chord) / chord.length();
             if !(towards.abs() > 1e-6) {
-                return Err(Error::IrregularBoundary { side, t: 0.5, across: towards });
+                return Err(Error::IrregularBoundary {
+                    side,
+                    t: 0.5,
+                    across: towards,
+                });
             }
-            oriented.push(if towards < 0.0 { strip.flipped() } else { strip });
+            oriented.push(if towards < 0.0 {
+                strip.flipped()
+            } else {
+                strip
+            });
         }
         let got = oriented.len();
-        let strips = oriented.try_into().map_err(|_| Error::TooFew { what: "strips", needed: 2, got })?;
-        let field = EndField::Polar { angle: 0.0.into(), length: chord.length().into() };
-        Ok(Self { strips, fields: [field.clone(), field] })
+        let strips = oriented.try_into().map_err(|_| Error::TooFew {
+            what: "strips",
+            needed: 2,
+            got,
+        })?;
+        let field = EndField::Polar {
+            angle: 0.0.into(),
+            length: chord.length().into(),
+        };
+        Ok(Self {
+            strips,
+            fields: [field.clone(), field],
+        })
     }
 
     /// The surface through two strips as they are oriented, with unit end vectors straight across.
     #[must_use]
     pub fn from_oriented(strips: [GeodesicStrip; 2]) -> Self {
-        let field = EndField::Polar { angle: 0.0.into(), length: 1.0.into() };
-        Self { strips, fields: [field.clone(), field] }
+        let field = EndField::Polar {
+            angle: 0.0.into(),
+            length: 1.0.into(),
+        };
+        Self {
+            strips,
+            fields: [field.clone(), field],
+        }
     }
 
     /// The same curves with other free functions.
@@ -353,9 +391,15 @@ impl TwoCurveSurface {
         };
         let [first, second] = &components;
         let field = |c: &[Vec<f64>; 2]| -> Result<EndField, Error> {
-            Ok(EndField::Components { along: spline(&c[0])?, across: spline(&c[1])? })
+            Ok(EndField::Components {
+                along: spline(&c[0])?,
+                across: spline(&c[1])?,
+            })
         };
-        Ok(Self { fields: [field(first)?, field(second)?], ..self })
+        Ok(Self {
+            fields: [field(first)?, field(second)?],
+            ..self
+        })
     }
 
     /// Components along and across of both end vectors at one place.
@@ -375,10 +419,18 @@ impl TwoCurveSurface {
                     let length = p.hypot(q);
                     [p / length, q / length]
                 });
-                let vector = |end: usize| samples[end].along[0] * directions[end][0] + samples[end].across[0] * directions[end][1];
-                let arc = HermiteArc::new([samples[0].point[0], samples[1].point[0]], [vector(0), vector(1)]);
+                let vector = |end: usize| {
+                    samples[end].along[0] * directions[end][0]
+                        + samples[end].across[0] * directions[end][1]
+                };
+                let arc = HermiteArc::new(
+                    [samples[0].point[0], samples[1].point[0]],
+                    [vector(0), vector(1)],
+                );
                 let magnitudes = arc.least(criterion).magnitudes;
-                from_fn(|end| directions[end].map(|c| c * magnitudes[end].max(least / directions[end][1])))
+                from_fn(|end| {
+                    directions[end].map(|c| c * magnitudes[end].max(least / directions[end][1]))
+                })
             }
             Freedom::Vectors => {
                 let mut basis = Vec::with_capacity(4);
@@ -399,17 +451,29 @@ impl TwoCurveSurface {
     /// [`Error::OutOfRange`] for no span or more than 256; [`Error::DegenerateEnergy`].
     pub fn smoothed_globally(self, spans: usize) -> Result<Self, Error> {
         if !(1..=256).contains(&spans) {
-            return Err(Error::OutOfRange { what: "number of spans", value: spans as f64, range: [1.0, 256.0] });
+            return Err(Error::OutOfRange {
+                what: "number of spans",
+                value: spans as f64,
+                range: [1.0, 256.0],
+            });
         }
         let system = PlateSystem::assemble(&self.strips, spans);
         let coefficients = system.solve()?;
         let count = spans + 3;
         let component = |index: usize| {
-            let c: Vec<f64> = (0..count).map(|k| coefficients[index * count + k]).collect();
+            let c: Vec<f64> = (0..count)
+                .map(|k| coefficients[index * count + k])
+                .collect();
             ScalarFunction::Spline(CubicSpline::from_uniform_coefficients(&c))
         };
-        let field = |end: usize| EndField::Components { along: component(2 * end), across: component(2 * end + 1) };
-        Ok(Self { fields: [field(0), field(1)], ..self })
+        let field = |end: usize| EndField::Components {
+            along: component(2 * end),
+            across: component(2 * end + 1),
+        };
+        Ok(Self {
+            fields: [field(0), field(1)],
+            ..self
+        })
     }
 
     /// The energy of criterion 4, `int int |F_uu|² + 2 |F_uv|² + |F_vv|²` over the unit square.
@@ -422,7 +486,9 @@ impl TwoCurveSurface {
                 let u = (panel as f64 + x) / PANELS as f64;
                 for (v, wv) in SIX {
                     let at = self.partials(u, v);
-                    let density = at.duu.length_squared() + 2.0 * at.duv.length_squared() + at.dvv.length_squared();
+                    let density = at.duu.length_squared()
+                        + 2.0 * at.duv.length_squared()
+                        + at.dvv.length_squared();
                     sum += wx * wv * density / PANELS as f64;
                 }
             }
@@ -438,7 +504,10 @@ impl Surface for TwoCurveSurface {
         let functions = hermite(v);
         let derivative = |a: usize, b: usize| {
             let h = &functions[b];
-            samples[0].point[a] * h[0] + vectors[0][a] * h[1] + vectors[1][a] * h[2] + samples[1].point[a] * h[3]
+            samples[0].point[a] * h[0]
+                + vectors[0][a] * h[1]
+                + vectors[1][a] * h[2]
+                + samples[1].point[a] * h[3]
         };
         Partials {
             position: derivative(0, 0),
@@ -464,7 +533,8 @@ impl PlateSystem {
     fn assemble(strips: &[GeodesicStrip; 2], spans: usize) -> Self {
         let count = spans + 3;
         let unknowns = 4 * count;
-        let (mut matrix, mut right) = (DMatrix::zeros(unknowns, unknowns), DVector::zeros(unknowns));
+        let (mut matrix, mut right) =
+            (DMatrix::zeros(unknowns, unknowns), DVector::zeros(unknowns));
         let mut least_chord = f64::INFINITY;
         for span in 0..spans {
             for (x, wx) in SIX {
@@ -477,17 +547,26 @@ impl PlateSystem {
                     .flat_map(|component| (0..4).map(move |k| (component, k)))
                     .map(|(component, k)| {
                         let sample = &samples[component / 2];
-                        let v = if component % 2 == 0 { &sample.along } else { &sample.across };
+                        let v = if component % 2 == 0 {
+                            &sample.along
+                        } else {
+                            &sample.across
+                        };
                         let c = basis[k];
-                        let vector =
-                            [v[0] * c[0], v[0] * c[1] + v[1] * c[0], v[0] * c[2] + v[1] * (2.0 * c[1]) + v[2] * c[0]];
+                        let vector = [
+                            v[0] * c[0],
+                            v[0] * c[1] + v[1] * c[0],
+                            v[0] * c[2] + v[1] * (2.0 * c[1]) + v[2] * c[0],
+                        ];
                         (component * count + span + k, component / 2, vector)
                     })
                     .collect();
                 for (v, wv) in SIX {
                     let h = hermite(v);
                     let weight = wx * wv / spans as f64;
-                    let fixed = |a: usize, b: usize| samples[0].point[a] * h[b][0] + samples[1].point[a] * h[b][3];
+                    let fixed = |a: usize, b: usize| {
+                        samples[0].point[a] * h[b][0] + samples[1].point[a] * h[b][3]
+                    };
                     let orders = [([2, 0], 1.0), ([1, 1], 2.0), ([0, 2], 1.0)];
                     for ([a, b], factor) in orders {
                         for (row, end, x) in &local {
@@ -501,7 +580,12 @@ impl PlateSystem {
                 }
             }
         }
-        Self { matrix, right, count, least_across: LEAST_ACROSS * least_chord }
+        Self {
+            matrix,
+            right,
+            count,
+            least_across: LEAST_ACROSS * least_chord,
+        }
     }
 
     /// Solves, fixing coefficients across a curve that fall below the least value until none does.
@@ -518,9 +602,13 @@ impl PlateSystem {
                 }
                 (matrix[(k, k)], right[k]) = (1.0, self.least_across);
             }
-            let solution = matrix.cholesky().ok_or(Error::DegenerateEnergy)?.solve(&right);
-            let violated: Vec<usize> =
-                (0..n).filter(|k| across(*k) && !fixed[*k] && solution[*k] < self.least_across).collect();
+            let solution = matrix
+                .cholesky()
+                .ok_or(Error::DegenerateEnergy)?
+                .solve(&right);
+            let violated: Vec<usize> = (0..n)
+                .filter(|k| across(*k) && !fixed[*k] && solution[*k] < self.least_across)
+                .collect();
             if violated.is_empty() {
                 return Ok(solution);
             }
@@ -534,10 +622,26 @@ impl PlateSystem {
 /// The four uniform cubic B-splines on a span at its local parameter, with derivatives by the global one.
 fn uniform_cubic(x: f64, spans: f64) -> [[f64; 3]; 4] {
     let s = 1.0 - x;
-    let values = [s * s * s, 3.0 * x * x * x - 6.0 * x * x + 4.0, 3.0 * s * s * s - 6.0 * s * s + 4.0, x * x * x];
-    let firsts = [-3.0 * s * s, 9.0 * x * x - 12.0 * x, -(9.0 * s * s - 12.0 * s), 3.0 * x * x];
+    let values = [
+        s * s * s,
+        3.0 * x * x * x - 6.0 * x * x + 4.0,
+        3.0 * s * s * s - 6.0 * s * s + 4.0,
+        x * x * x,
+    ];
+    let firsts = [
+        -3.0 * s * s,
+        9.0 * x * x - 12.0 * x,
+        -(9.0 * s * s - 12.0 * s),
+        3.0 * x * x,
+    ];
     let seconds = [6.0 * s, 18.0 * x - 12.0, 18.0 * s - 12.0, 6.0 * x];
-    from_fn(|k| [values[k] / 6.0, firsts[k] * spans / 6.0, seconds[k] * spans * spans / 6.0])
+    from_fn(|k| {
+        [
+            values[k] / 6.0,
+            firsts[k] * spans / 6.0,
+            seconds[k] * spans * spans / 6.0,
+        ]
+    })
 }
 
 /// Several strips joined to one C1 surface: consecutive two-curve surfaces that share the end vectors of their common
@@ -560,13 +664,25 @@ impl StripChain {
     pub fn new(strips: Vec<GeodesicStrip>, widths: &[f64]) -> Result<Self, Error> {
         let n = strips.len();
         if n < 2 {
-            return Err(Error::TooFew { what: "curves", needed: 2, got: n });
+            return Err(Error::TooFew {
+                what: "curves",
+                needed: 2,
+                got: n,
+            });
         }
         if widths.len() != n - 1 {
-            return Err(Error::LengthMismatch { what: "widths", expected: n - 1, got: widths.len() });
+            return Err(Error::LengthMismatch {
+                what: "widths",
+                expected: n - 1,
+                got: widths.len(),
+            });
         }
         if let Some(&value) = widths.iter().find(|w| !(**w > 0.0 && w.is_finite())) {
-            return Err(Error::OutOfRange { what: "width", value, range: [0.0, f64::INFINITY] });
+            return Err(Error::OutOfRange {
+                what: "width",
+                value,
+                range: [0.0, f64::INFINITY],
+            });
         }
         let strips = oriented_chain(strips)?;
         let places: Vec<f64> = (0..=PLACES).map(|i| i as f64 / PLACES as f64).collect();
@@ -584,16 +700,25 @@ impl StripChain {
         let field = |k: usize, width: f64| {
             let scaled: Vec<f64> = lengths[k].iter().map(|l| l * width).collect();
             // Splines are linear in their data: the scaled one is the same function times the width.
-            CubicSpline::new(splines[k].knots(), &scaled, EndCondition::NotAKnot)
-                .map(|spline| EndField::Components { along: 0.0.into(), across: ScalarFunction::Spline(spline) })
+            CubicSpline::new(splines[k].knots(), &scaled, EndCondition::NotAKnot).map(|spline| {
+                EndField::Components {
+                    along: 0.0.into(),
+                    across: ScalarFunction::Spline(spline),
+                }
+            })
         };
         let surfaces = (0..n - 1)
             .map(|k| {
-                Ok(TwoCurveSurface::from_oriented([strips[k].clone(), strips[k + 1].clone()])
-                    .with_fields([field(k, widths[k])?, field(k + 1, widths[k])?]))
+                Ok(
+                    TwoCurveSurface::from_oriented([strips[k].clone(), strips[k + 1].clone()])
+                        .with_fields([field(k, widths[k])?, field(k + 1, widths[k])?]),
+                )
             })
             .collect::<Result<_, Error>>()?;
-        Ok(Self { surfaces, widths: widths.to_vec() })
+        Ok(Self {
+            surfaces,
+            widths: widths.to_vec(),
+        })
     }
 
     /// The surfaces, each over the unit square.
@@ -627,7 +752,10 @@ impl StripChain {
         for (pair, widths) in self.surfaces.windows(2).zip(self.widths.windows(2)) {
             for i in 0..=n {
                 let u = i as f64 / n as f64;
-                let (a, b) = (pair[0].partials(u, 1.0).dv / widths[0], pair[1].partials(u, 0.0).dv / widths[1]);
+                let (a, b) = (
+                    pair[0].partials(u, 1.0).dv / widths[0],
+                    pair[1].partials(u, 0.0).dv / widths[1],
+                );
                 worst = worst.max(a.distance(b) / a.length());
             }
         }
@@ -643,12 +771,21 @@ fn oriented_chain(strips: Vec<GeodesicStrip>) -> Result<Vec<GeodesicStrip>, Erro
         .into_iter()
         .enumerate()
         .map(|(k, strip)| {
-            let onward = samples[(k + 1).min(last)].point[0] - samples[k.saturating_sub(1)].point[0];
+            let onward =
+                samples[(k + 1).min(last)].point[0] - samples[k.saturating_sub(1)].point[0];
             let towards = samples[k].across[0].dot(onward) / onward.length();
             if !(towards.abs() > 1e-6) {
-                return Err(Error::IrregularBoundary { side: k, t: 0.5, across: towards });
+                return Err(Error::IrregularBoundary {
+                    side: k,
+                    t: 0.5,
+                    across: towards,
+                });
             }
-            Ok(if towards < 0.0 { strip.flipped() } else { strip })
+            Ok(if towards < 0.0 {
+                strip.flipped()
+            } else {
+                strip
+            })
         })
         .collect()
 }
@@ -672,8 +809,15 @@ fn chain_lengths(samples: &[StripSample], widths: &[f64]) -> Result<Vec<f64>, Er
             least[end] = least[end].min(LEAST_ACROSS * chord.length() / d);
         }
     }
-    let solution = matrix.cholesky().ok_or(Error::DegenerateEnergy)?.solve(&right);
-    Ok(solution.iter().zip(least).map(|(l, least)| l.max(least)).collect())
+    let solution = matrix
+        .cholesky()
+        .ok_or(Error::DegenerateEnergy)?
+        .solve(&right);
+    Ok(solution
+        .iter()
+        .zip(least)
+        .map(|(l, least)| l.max(least))
+        .collect())
 }
 
 #[cfg(test)]
@@ -682,7 +826,10 @@ mod tests {
     use crate::{AnalyticCurve, geodesic_curvature};
 
     fn helix(pitch: f64, z: f64) -> GeodesicStrip {
-        GeodesicStrip::new(AnalyticCurve::new(move |t| [t.cos(), t.sin(), t * pitch + z])).unwrap()
+        GeodesicStrip::new(AnalyticCurve::new(move |t| {
+            [t.cos(), t.sin(), t * pitch + z]
+        }))
+        .unwrap()
     }
 
     fn boundary(surface: &TwoCurveSurface) -> f64 {
@@ -702,20 +849,29 @@ mod tests {
         };
         assert!(boundary(&base.clone().with_fields([polar.clone(), polar])) < 1e-14);
         for freedom in [Freedom::Lengths, Freedom::Vectors] {
-            for criterion in [LocalCriterion::Bending, LocalCriterion::Stretching, LocalCriterion::SpeedVariation] {
+            for criterion in [
+                LocalCriterion::Bending,
+                LocalCriterion::Stretching,
+                LocalCriterion::SpeedVariation,
+            ] {
                 assert!(boundary(&base.clone().smoothed(criterion, freedom).unwrap()) < 1e-14);
             }
         }
         let global = base.clone().smoothed_globally(4).unwrap();
         assert!(boundary(&global) < 1e-14);
         // The global criterion is the least of its kind.
-        let local = base.smoothed(LocalCriterion::Bending, Freedom::Vectors).unwrap();
+        let local = base
+            .smoothed(LocalCriterion::Bending, Freedom::Vectors)
+            .unwrap();
         assert!(global.thin_plate_energy() <= local.thin_plate_energy());
     }
 
     #[test]
     fn second_derivatives_are_those_of_the_surface() {
-        let surface = TwoCurveSurface::new([helix(0.3, 0.0), helix(-0.2, 1.5)]).unwrap().smoothed_globally(3).unwrap();
+        let surface = TwoCurveSurface::new([helix(0.3, 0.0), helix(-0.2, 1.5)])
+            .unwrap()
+            .smoothed_globally(3)
+            .unwrap();
         let (u, v, h) = (0.41, 0.3, 1e-5);
         let at = surface.partials(u, v);
         let [east, west] = [surface.partials(u + h, v), surface.partials(u - h, v)];
@@ -728,14 +884,19 @@ mod tests {
     fn local_criteria() {
         let arc = HermiteArc::new(
             [DVec3::ZERO, DVec3::new(1.5, 0.4, -0.2)],
-            [DVec3::new(0.9, 0.3, 0.1).normalize(), DVec3::new(0.8, -0.4, 0.2).normalize()],
+            [
+                DVec3::new(0.9, 0.3, 0.1).normalize(),
+                DVec3::new(0.8, -0.4, 0.2).normalize(),
+            ],
         );
         let energy = |criterion: LocalCriterion, [l0, l1]: [f64; 2]| {
             let rule = crate::quadrature::gauss(40);
             let density = |t: f64| {
                 let h = hermite(t);
                 let f = |o: usize| {
-                    arc.points[1] * h[o][3] + arc.directions[0] * (l0 * h[o][1]) + arc.directions[1] * (l1 * h[o][2])
+                    arc.points[1] * h[o][3]
+                        + arc.directions[0] * (l0 * h[o][1])
+                        + arc.directions[1] * (l1 * h[o][2])
                 };
                 match criterion {
                     LocalCriterion::Bending => f(2).length_squared(),
@@ -745,18 +906,33 @@ mod tests {
             };
             rule.iter().map(|(t, w)| w * density(*t)).sum::<f64>()
         };
-        for criterion in [LocalCriterion::Bending, LocalCriterion::Stretching, LocalCriterion::SpeedVariation] {
-            let LeastMagnitudes { magnitudes: [l0, l1], energy: least } = arc.least(criterion);
-            assert!((energy(criterion, [l0, l1]) - least).abs() < 1e-6 * (1.0 + least), "{criterion:?}");
+        for criterion in [
+            LocalCriterion::Bending,
+            LocalCriterion::Stretching,
+            LocalCriterion::SpeedVariation,
+        ] {
+            let LeastMagnitudes {
+                magnitudes: [l0, l1],
+                energy: least,
+            } = arc.least(criterion);
+            assert!(
+                (energy(criterion, [l0, l1]) - least).abs() < 1e-6 * (1.0 + least),
+                "{criterion:?}"
+            );
             for (d0, d1) in [(1e-2, 0.0), (-1e-2, 0.0), (0.0, 1e-2), (0.0, -1e-2)] {
-                assert!(energy(criterion, [l0 + d0, l1 + d1]) > energy(criterion, [l0, l1]), "{criterion:?}");
+                assert!(
+                    energy(criterion, [l0 + d0, l1 + d1]) > energy(criterion, [l0, l1]),
+                    "{criterion:?}"
+                );
             }
         }
     }
 
     #[test]
     fn a_chain_is_one_smooth_surface() {
-        let strips = (0..5).map(|k| helix(0.2 - 0.1 * f64::from(k), 0.8 * f64::from(k))).collect();
+        let strips = (0..5)
+            .map(|k| helix(0.2 - 0.1 * f64::from(k), 0.8 * f64::from(k)))
+            .collect();
         let chain = StripChain::new(strips, &[1.0, 0.9, 1.1, 1.0]).unwrap();
         assert_eq!(chain.surfaces().len(), 4);
         assert!(chain.joint_angle(16) < 1e-14 && chain.joint_jump(16) < 1e-13);
@@ -764,9 +940,18 @@ mod tests {
             assert!(boundary(surface) < 1e-13);
             assert!((surface.point(0.4, 0.5).truncate().length() - 1.0).abs() < 1e-2);
         }
-        assert!(matches!(StripChain::new(vec![helix(0.1, 0.0)], &[]), Err(Error::TooFew { .. })));
+        assert!(matches!(
+            StripChain::new(vec![helix(0.1, 0.0)], &[]),
+            Err(Error::TooFew { .. })
+        ));
         let two = || vec![helix(0.1, 0.0), helix(0.1, 1.0)];
-        assert!(matches!(StripChain::new(two(), &[-1.0]), Err(Error::OutOfRange { .. })));
-        assert!(matches!(StripChain::new(two(), &[1.0, 1.0]), Err(Error::LengthMismatch { .. })));
+        assert!(matches!(
+            StripChain::new(two(), &[-1.0]),
+            Err(Error::OutOfRange { .. })
+        ));
+        assert!(matches!(
+            StripChain::new(two(), &[1.0, 1.0]),
+            Err(Error::LengthMismatch { .. })
+        ));
     }
 }
