@@ -278,11 +278,11 @@ fn uniform_basis(t: f64, spans: usize) -> (usize, [Series; DEGREE + 1]) {
     basis[0] = Series::constant(1.0);
     for degree in 1..=DEGREE {
         let mut carried = Series::constant(0.0);
-        for k in 0..degree {
+        for (k, spline) in basis.iter_mut().enumerate().take(degree) {
             // Spline k of the lower degree lives on the knots from k + 1 - degree to k + 1 about the span.
-            let share = basis[k] / degree as f64;
+            let share = *spline / degree as f64;
             let right = x * -1.0 + (k + 1) as f64;
-            basis[k] = carried + right * share;
+            *spline = carried + right * share;
             carried = (x + (degree - 1 - k) as f64) * share;
         }
         basis[degree] = carried;

@@ -427,9 +427,9 @@ impl<S: Strip> TrianglePatch<S> {
             first: [DVec3::ZERO; 3],
             second: [[DVec3::ZERO; 3]; 3],
         };
-        for i in 0..3 {
+        for (i, pair) in samples.iter().enumerate() {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            let [p, px, py, pxx, pxy, pyy] = self.interpolant(i, [l[j], l[k]], &samples[i]);
+            let [p, px, py, pxx, pxy, pyy] = self.interpolant(i, [l[j], l[k]], pair);
             let mut first = [DVec3::ZERO; 3];
             (first[j], first[k]) = (px, py);
             let mut second = [[DVec3::ZERO; 3]; 3];
