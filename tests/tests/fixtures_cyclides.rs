@@ -15,11 +15,16 @@ use cyclides::{blends, patches, surfaces};
 #[test]
 fn fixtures_cyclides() {
     let file = read("cyclides");
-    let cases = file["cases"].as_array().expect("a list of cases").iter().map(|case| {
-        let text = |key: &str| case[key].as_str().unwrap_or_default();
-        let tolerance = Tolerance::ComponentwiseMax(case["tol"].as_f64().expect("a tolerance"));
-        Case::new(text("name"), text("item"), &case["input"]).expecting(&case["expected"], tolerance)
-    });
+    let cases = file["cases"]
+        .as_array()
+        .expect("a list of cases")
+        .iter()
+        .map(|case| {
+            let text = |key: &str| case[key].as_str().unwrap_or_default();
+            let tolerance = Tolerance::ComponentwiseMax(case["tol"].as_f64().expect("a tolerance"));
+            Case::new(text("name"), text("item"), &case["input"])
+                .expecting(&case["expected"], tolerance)
+        });
     judge("cyclides", cases, |case| match case.kind() {
         "a.evaluate" => surfaces::evaluate(case),
         "a.implicit" => surfaces::implicit(case),

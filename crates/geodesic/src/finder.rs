@@ -37,6 +37,7 @@ pub enum Start {
 pub struct PathFinder<'m> {
     mesh: &'m Mesh,
     start: Start,
+    neighbours: bool,
     search: Search,
     shortener: Shortener,
     strip: Strip,
@@ -51,6 +52,7 @@ impl<'m> PathFinder<'m> {
         Self {
             mesh,
             start: Start::default(),
+            neighbours: true,
             search: Search::default(),
             shortener: Shortener::default(),
             strip: Strip::default(),
@@ -63,6 +65,15 @@ impl<'m> PathFinder<'m> {
     #[must_use]
     pub fn with_start(mut self, start: Start) -> Self {
         self.start = start;
+        self
+    }
+
+    /// Whether a path that is locally shortest is given up for a shorter one that passes a vertex close to it on the
+    /// other side, over and over; on unless switched off. Without it the result is the shortest path in the class, relative
+    /// to the vertices, that pivot updates alone reach from the start.
+    #[must_use]
+    pub fn with_neighbouring_classes(mut self, explore: bool) -> Self {
+        self.neighbours = explore;
         self
     }
 
@@ -146,19 +157,15 @@ impl<'m> PathFinder<'m> {
         Ok(self.shortener.strip.faces(self.mesh).collect())
     }
 
-    /// The faces of the initial path between two points, before any shortening.
+    /// Finds the initial path alone, before any shortening, and returns the number of faces on it.
     ///
     /// # Errors
     ///
     /// As for [`PathFinder::shortest`].
-    pub fn initial_faces(
-        &mut self,
-        from: SurfacePoint,
-        to: SurfacePoint,
-    ) -> Result<Vec<u32>, Error> {
+    pub fn search_only(&mut self, from: SurfacePoint, to: SurfacePoint) -> Result<usize, Error> {
         let (from, to) = (self.mesh.canonical(from)?, self.mesh.canonical(to)?);
         self.search(from, to)?;
-        Ok(self.shortener.strip.faces(self.mesh).collect())
+        Ok(self.shortener.strip.portals.len() + 1)
     }
 
     /// Nodes settled by the search of the last query: what its time grows with.
@@ -205,6 +212,7 @@ impl<'m> PathFinder<'m> {
             shortener,
             strip,
             path,
+            neighbours,
             ..
         } = self;
         shortener.strip.trim(mesh, from, to);
@@ -212,10 +220,21 @@ impl<'m> PathFinder<'m> {
         path.updates.clear();
         // A path has a few updates for each vertex on it; a mesh is crossed by about the root of its number of faces.
         let limit = 20 * mesh.face_count() + 100;
-        if !shortener.shorten(mesh, limit, |_, update| path.updates.push(update)) {
-            return Err(Error::NotConverged {
-                updates: shortener.updates,
-            });
+        loop {
+            if !shortener.shorten(mesh, limit, |_, update| path.updates.push(update)) {
+                return Err(Error::NotConverged {
+                    updates: shortener.updates,
+                });
+            }
+            let hop = if *neighbours {
+                shortener.hop(mesh)
+            } else {
+                None
+            };
+            match hop {
+                Some(update) => path.updates.push(update),
+                None => break,
+            }
         }
         path.set(mesh, shortener, strip);
         Ok(path)

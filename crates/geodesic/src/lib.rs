@@ -1,8 +1,11 @@
 //! Shortest and straightest paths on triangle meshes and smooth surfaces, exact where asked and certified always
 
+#[cfg(feature = "closest-point")]
+mod closest;
 mod error;
 mod finder;
 mod funnel;
+mod hop;
 mod loops;
 mod mesh;
 mod path;
@@ -13,6 +16,8 @@ mod straightest;
 mod strip;
 mod surface_point;
 
+#[cfg(feature = "closest-point")]
+pub use closest::{Closest, ClosestPoint};
 pub use error::Error;
 pub use finder::{PathFinder, Start};
 pub use glam;

@@ -7,6 +7,7 @@ use glam::DVec2;
 
 use crate::SurfacePoint;
 use crate::funnel::{Corner, Funnel, TOUCH_ANGLE};
+use crate::hop::Hop;
 use crate::mesh::{Mesh, angle_between, face_of, next, previous};
 use crate::strip::{Side, Strip};
 
@@ -15,7 +16,7 @@ pub(crate) const SIDE_ANGLE: f64 = TOUCH_ANGLE;
 
 /// An update should shorten the path by more than this, relatively: where lengths decrease strictly no sequence of faces
 /// comes again, and the process ends whatever rounding does.
-const STRICTLY: f64 = 1e-14;
+pub(crate) const STRICTLY: f64 = 1e-14;
 
 /// A bend of 1e-7 at a vertex lengthens a path by 1e-14 of itself, which rounding hides, while the angle says clearly
 /// that the path should pass on the other side. So many updates that change the length by rounding only are made in one
@@ -33,7 +34,9 @@ pub(crate) struct Ray {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Leg {
     start: u32,
-    count: u32,
+    pub(crate) count: u32,
+    /// Whether its neighbouring classes were looked at.
+    pub(crate) explored: bool,
     /// The face in which it begins.
     pub(crate) first_face: u32,
     pub(crate) length: f64,
@@ -103,6 +106,7 @@ pub(crate) struct Shortener {
     pub(crate) updates: usize,
     /// Updates left that need not shorten the path.
     sideways: usize,
+    pub(crate) hops: Vec<Hop>,
 }
 
 impl Shortener {
@@ -181,35 +185,62 @@ impl Shortener {
     /// neighbours. Returns whether that was kept.
     fn update(&mut self, mesh: &Mesh, i: usize, side: Side) -> bool {
         let (before, node, after) = (self.nodes[i - 1], self.nodes[i], self.nodes[i + 1].point);
-        self.strip.restart(before.leg.first_face);
-        for k in before.leg.start..before.leg.start + before.leg.count {
-            self.strip.push(mesh, self.store[k as usize]);
-        }
+        self.load(before.leg);
         push_fan(mesh, &mut self.strip, node.incoming, node.outgoing, side);
-        for k in node.leg.start..node.leg.start + node.leg.count {
-            self.strip.push(mesh, self.store[k as usize]);
+        for k in 0..node.leg.count {
+            self.strip.push(mesh, self.portal(node.leg, k));
         }
         self.strip.trim(mesh, before.point, after);
-        let stored = self.store.len();
-        self.solve_strip(mesh, before.point, after);
         let old = before.leg.length + node.leg.length;
-        let new: f64 = self.fresh.iter().map(|node| node.leg.length).sum();
-        let shorter = new < old * (1.0 - STRICTLY);
-        let sideways = new <= old * (1.0 + STRICTLY) && self.sideways > 0;
-        if !shorter {
-            self.sideways = self.sideways.saturating_sub(1);
-        }
-        if !(shorter || sideways) {
-            self.store.truncate(stored);
+        let mut sideways = self.sideways;
+        let accept = |new: f64| {
+            if new < old * (1.0 - STRICTLY) {
+                return true;
+            }
+            let rounding_only = new <= old * (1.0 + STRICTLY) && sideways > 0;
+            sideways = sideways.saturating_sub(1);
+            rounding_only
+        };
+        let kept = self.replace(mesh, i - 1, i + 1, accept);
+        self.sideways = sideways;
+        if !kept {
             self.nodes[i].settled = true;
+        }
+        kept
+    }
+
+    /// Puts a leg into the strip.
+    pub(crate) fn load(&mut self, leg: Leg) {
+        let portals = leg.start as usize..(leg.start + leg.count) as usize;
+        self.strip.restart(leg.first_face);
+        self.strip.portals.extend_from_slice(&self.store[portals]);
+    }
+
+    /// Portal `k` of a leg.
+    pub(crate) fn portal(&self, leg: Leg, k: u32) -> u32 {
+        self.store[(leg.start + k) as usize]
+    }
+
+    /// Replaces what lies between nodes `i` and `j` by the taut path in the strip, if its length is accepted.
+    pub(crate) fn replace(
+        &mut self,
+        mesh: &Mesh,
+        i: usize,
+        j: usize,
+        accept: impl FnOnce(f64) -> bool,
+    ) -> bool {
+        let stored = self.store.len();
+        self.solve_strip(mesh, self.nodes[i].point, self.nodes[j].point);
+        if !accept(self.fresh.iter().map(|node| node.leg.length).sum()) {
+            self.store.truncate(stored);
             return false;
         }
         let added = self.fresh.len() - 1;
-        self.nodes[i - 1].outgoing = self.fresh[0].outgoing;
-        self.nodes[i - 1].leg = self.fresh[0].leg;
-        self.nodes[i + 1].incoming = self.arrival;
-        self.nodes.splice(i..=i, self.fresh.drain(1..));
-        for changed in i - 1..=i + added {
+        self.nodes[i].outgoing = self.fresh[0].outgoing;
+        self.nodes[i].leg = self.fresh[0].leg;
+        self.nodes[j].incoming = self.arrival;
+        self.nodes.splice(i + 1..j, self.fresh.drain(1..));
+        for changed in i..=i + added + 1 {
             if changed > 0 && changed + 1 < self.nodes.len() {
                 self.measure_sides(mesh, changed);
             }
@@ -277,6 +308,7 @@ impl Shortener {
                     .get(entry)
                     .map_or(last_face, |&portal| face_of(portal)),
                 length: at.distance(onward),
+                explored: begin >= end,
             };
             if begin < end {
                 store.extend_from_slice(&strip.portals[begin..end]);
@@ -301,7 +333,13 @@ impl Shortener {
 }
 
 /// The node at a corner of a taut path that comes from `behind` and goes on to `ahead`.
-fn pivot_node(mesh: &Mesh, strip: &Strip, corner: Corner, behind: DVec2, ahead: DVec2) -> Node {
+pub(crate) fn pivot_node(
+    mesh: &Mesh,
+    strip: &Strip,
+    corner: Corner,
+    behind: DVec2,
+    ahead: DVec2,
+) -> Node {
     let Corner {
         side,
         first,

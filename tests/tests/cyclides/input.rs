@@ -31,9 +31,16 @@ pub(crate) fn surface(case: &Case<'_>) -> Dupin {
     let value = case.get("surface").unwrap_or(case.input());
     let frame = frame(&value["frame"]);
     if value.get("f").is_some() {
-        return Dupin::parabolic(number(value, "f"), number(value, "k"), frame).expect("a parabolic cyclide");
+        return Dupin::parabolic(number(value, "f"), number(value, "k"), frame)
+            .expect("a parabolic cyclide");
     }
-    Dupin::quartic(number(value, "a"), number(value, "c"), number(value, "mu"), frame).expect("a quartic cyclide")
+    Dupin::quartic(
+        number(value, "a"),
+        number(value, "c"),
+        number(value, "mu"),
+        frame,
+    )
+    .expect("a quartic cyclide")
 }
 
 pub(crate) fn quartic(case: &Case<'_>) -> Quartic {
@@ -51,18 +58,28 @@ pub(crate) fn cones(case: &Case<'_>) -> Result<[Cone; 2], Error> {
 fn cone(value: &Value) -> Result<Cone, Error> {
     let axis = vector(&value["axis"]);
     if value.get("cylinder_point").is_some() {
-        return Cone::cylinder(vector(&value["cylinder_point"]), axis, number(value, "radius"));
+        return Cone::cylinder(
+            vector(&value["cylinder_point"]),
+            axis,
+            number(value, "radius"),
+        );
     }
     Cone::new(vector(&value["vertex"]), axis, number(value, "half_angle"))
 }
 
 /// Refuses with the error's category; the file's words mean it if they contain one of the given phrases.
 pub(crate) fn refuse(case: &Case<'_>, error: &Error, phrases: &[&str]) {
-    case.refuse(&error.to_string(), |words| phrases.iter().any(|phrase| words.contains(phrase)));
+    case.refuse(&error.to_string(), |words| {
+        phrases.iter().any(|phrase| words.contains(phrase))
+    });
 }
 
 /// The direction among `direction` and `-direction` that the file has.
 pub(crate) fn up_to_sign(case: &Case<'_>, key: &str, direction: DVec3) -> Value {
     let want = case.expected().get(key).map_or(DVec3::ZERO, vector);
-    array(if direction.dot(want) < 0.0 { -direction } else { direction })
+    array(if direction.dot(want) < 0.0 {
+        -direction
+    } else {
+        direction
+    })
 }

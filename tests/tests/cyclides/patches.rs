@@ -3,7 +3,9 @@
 use super::input::{array, refuse, span, surface, vector};
 use bezier_mass::{Biquadratic, MassPoint};
 use cyclide::glam::DVec3;
-use cyclide::{Condition, Conversion, Dupin, Error, convert, convert_torus, inspect, solve_weights};
+use cyclide::{
+    Condition, Conversion, Dupin, Error, convert, convert_torus, inspect, solve_weights,
+};
 use integration_tests::Case;
 use serde_json::{Value, json};
 
@@ -12,26 +14,49 @@ fn nine<T>(value: &Value, entry: impl Fn(&Value) -> T) -> [[T; 3]; 3] {
 }
 
 fn net(points: &Value, weights: &Value) -> Biquadratic<DVec3> {
-    let (points, weights) = (nine(points, vector), nine(weights, |weight| weight.as_f64().expect("a weight")));
-    let control = [0, 1, 2].map(|i| [0, 1, 2].map(|j| MassPoint::point(points[i][j], weights[i][j])));
+    let (points, weights) = (
+        nine(points, vector),
+        nine(weights, |weight| weight.as_f64().expect("a weight")),
+    );
+    let control =
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j| MassPoint::point(points[i][j], weights[i][j])));
     Biquadratic::new(control).expect("a finite net")
 }
 
 fn compare_net(case: &Case<'_>, net: &Biquadratic<DVec3>) {
     let control = net.control();
-    case.compare("points", json!(control.map(|row| row.map(|mass_point| mass_point.position().map(|p| p.to_array())))));
+    case.compare(
+        "points",
+        json!(control.map(|row| row.map(|mass_point| mass_point.position().map(|p| p.to_array())))),
+    );
     compare_weights(case, net);
 }
 
 fn compare_weights(case: &Case<'_>, net: &Biquadratic<DVec3>) {
-    case.compare("weights", json!(net.control().map(|row| row.map(|mass_point| mass_point.weight))));
+    case.compare(
+        "weights",
+        json!(
+            net.control()
+                .map(|row| row.map(|mass_point| mass_point.weight))
+        ),
+    );
 }
 
 pub(crate) fn bezier(case: &Case<'_>) {
     let surface = surface(case);
-    let spans = if surface.as_parabolic().is_some() { ["u", "v"] } else { ["theta", "psi"] }.map(|name| span(case, name));
-    let patch = surface.patch(spans[0], spans[1]).expect("a span below a full turn");
-    let raw = patch.net().control().map(|row| row.map(|h| [h.weighted.x, h.weighted.y, h.weighted.z, h.weight]));
+    let spans = if surface.as_parabolic().is_some() {
+        ["u", "v"]
+    } else {
+        ["theta", "psi"]
+    }
+    .map(|name| span(case, name));
+    let patch = surface
+        .patch(spans[0], spans[1])
+        .expect("a span below a full turn");
+    let raw = patch
+        .net()
+        .control()
+        .map(|row| row.map(|h| [h.weighted.x, h.weighted.y, h.weighted.z, h.weight]));
     case.compare("raw_homogeneous", json!(raw));
     if case.expected().get("points").is_some() {
         let net = patch.normalised_net().expect("finite corners");
@@ -39,7 +64,10 @@ pub(crate) fn bezier(case: &Case<'_>) {
         if let Some(uv) = case.expected().get("sample_uv") {
             case.seen("sample_uv");
             let at = |index: usize| uv[index].as_f64().expect("a parameter");
-            case.compare("sample_point", array(net.point(at(0), at(1)).expect("a point")));
+            case.compare(
+                "sample_point",
+                array(net.point(at(0), at(1)).expect("a point")),
+            );
         }
     }
 }
@@ -50,7 +78,10 @@ pub(crate) fn weights(case: &Case<'_>) {
     let net = solved.expect("all conditions hold");
     compare_weights(case, &net);
     let middle = net.middle_curves().map(|curve| {
-        json!(curve.control().map(|barycentre| (barycentre.position().expect("a point").to_array(), barycentre.weight)))
+        json!(curve.control().map(|barycentre| (
+            barycentre.position().expect("a point").to_array(),
+            barycentre.weight
+        )))
     });
     let [along_u, along_v] = middle;
     case.compare("middle_curve_u", along_u);
@@ -80,11 +111,16 @@ pub(crate) fn invalid(case: &Case<'_>) {
 
 pub(crate) fn algorithm1(case: &Case<'_>) {
     let net = net(&case.input()["points"], &case.input()["weights"]);
-    let hint = case.get("x_hint").map(|x| [vector(x), vector(&case.input()["z_hint"])]);
+    let hint = case
+        .get("x_hint")
+        .map(|x| [vector(x), vector(&case.input()["z_hint"])]);
     let found = match convert_torus(&net, hint) {
         Ok(found) => found,
         Err(error) => {
-            case.require(matches!(error, Error::NoParallelEdges { .. }), "refused for another reason");
+            case.require(
+                matches!(error, Error::NoParallelEdges { .. }),
+                "refused for another reason",
+            );
             return refuse(case, &error, &["parallel planes"]);
         }
     };
@@ -129,17 +165,34 @@ fn compare_conversion(case: &Case<'_>, found: &Conversion) {
     case.compare("kind", found.kind().name());
     case.compare("origin", array(frame.origin()));
     case.compare("u_is_theta", found.rows_follow_first);
-    case.require(found.rows_follow_first || case.expected().get("u_is_theta").is_some(), "the rows follow the second parameter");
+    case.require(
+        found.rows_follow_first || case.expected().get("u_is_theta").is_some(),
+        "the rows follow the second parameter",
+    );
     let (names, parameters) = match &found.surface {
-        Dupin::Quartic(surface) => (["theta0", "theta1", "psi0", "psi1"], vec![("a", surface.a()), ("c", surface.c()), ("mu", surface.mu()), ("e", surface.eccentricity())]),
-        Dupin::Parabolic(surface) => (["u0", "u1", "v0", "v1"], vec![("f", surface.f()), ("k", surface.k())]),
+        Dupin::Quartic(surface) => (
+            ["theta0", "theta1", "psi0", "psi1"],
+            vec![
+                ("a", surface.a()),
+                ("c", surface.c()),
+                ("mu", surface.mu()),
+                ("e", surface.eccentricity()),
+            ],
+        ),
+        Dupin::Parabolic(surface) => (
+            ["u0", "u1", "v0", "v1"],
+            vec![("f", surface.f()), ("k", surface.k())],
+        ),
     };
     for (key, value) in parameters {
         case.compare(key, value);
     }
     case.compare("x", array(frame.x()));
     case.compare("y", array(frame.y()));
-    for (key, value) in names.into_iter().zip(found.first.into_iter().chain(found.second)) {
+    for (key, value) in names
+        .into_iter()
+        .zip(found.first.into_iter().chain(found.second))
+    {
         case.compare(key, value);
     }
 }

@@ -32,12 +32,18 @@ pub(crate) fn kind(case: &Case<'_>) {
     let surface = match Quartic::new(a, c, mu, Frame::WORLD) {
         Ok(surface) => surface,
         Err(error) => {
-            case.require(matches!(error, Error::TwoSpheres { .. }) && kind == Kind::TwoSpheres, &error.to_string());
+            case.require(
+                matches!(error, Error::TwoSpheres { .. }) && kind == Kind::TwoSpheres,
+                &error.to_string(),
+            );
             case.compare("singular_points", json!([]));
             return;
         }
     };
-    case.require(surface.kind() == kind, "the surface has another kind than its numbers");
+    case.require(
+        surface.kind() == kind,
+        "the surface has another kind than its numbers",
+    );
     compare_set(case, "singular_points", &surface.singular_points());
     let circle = |circle: CurvatureCircle| json!({"centre": circle.centre.to_array(), "radius": circle.radius});
     let [psi_zero, psi_pi, theta_zero, theta_pi] = surface.principal_circles().map(circle);
@@ -47,25 +53,51 @@ pub(crate) fn kind(case: &Case<'_>) {
 
 /// Compares a set of points: each expected one with the nearest that was found.
 fn compare_set(case: &Case<'_>, key: &str, points: &[DVec3]) {
-    let wanted: Vec<DVec3> = case.expected()[key].as_array().into_iter().flatten().map(vector).collect();
-    let nearest = |want: &DVec3| points.iter().min_by(|p, q| p.distance(*want).total_cmp(&q.distance(*want))).copied();
+    let wanted: Vec<DVec3> = case.expected()[key]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .map(vector)
+        .collect();
+    let nearest = |want: &DVec3| {
+        points
+            .iter()
+            .min_by(|p, q| p.distance(*want).total_cmp(&q.distance(*want)))
+            .copied()
+    };
     let ordered: Vec<Value> = wanted.iter().filter_map(nearest).map(array).collect();
-    case.require(points.len() == wanted.len(), &format!("{key}: {} points, expected {}", points.len(), wanted.len()));
+    case.require(
+        points.len() == wanted.len(),
+        &format!("{key}: {} points, expected {}", points.len(), wanted.len()),
+    );
     case.compare(key, ordered);
 }
 
 pub(crate) fn axes(case: &Case<'_>) {
     let surface = quartic(case);
-    let (theta, psi) = (surface.theta_axis(), surface.psi_axis().expect("an axis at a finite place"));
+    let (theta, psi) = (
+        surface.theta_axis(),
+        surface.psi_axis().expect("an axis at a finite place"),
+    );
     for (key, axis) in [("delta_theta", theta), ("delta_psi", psi)] {
         let want = vector(&case.expected()[key]["direction"]);
-        let direction = if axis.direction.dot(want) < 0.0 { -axis.direction } else { axis.direction };
-        case.compare(key, json!({"point": axis.point.to_array(), "direction": direction.to_array()}));
+        let direction = if axis.direction.dot(want) < 0.0 {
+            -axis.direction
+        } else {
+            axis.direction
+        };
+        case.compare(
+            key,
+            json!({"point": axis.point.to_array(), "direction": direction.to_array()}),
+        );
     }
     case.compare("power_at_delta_theta", theta.power);
     case.compare("power_at_delta_psi", psi.power);
     for angle in [0.3, 1.9, 4.0] {
-        let powers = [surface.theta_circle(angle).power(theta.point), surface.psi_circle(angle).power(psi.point)];
+        let powers = [
+            surface.theta_circle(angle).power(theta.point),
+            surface.psi_circle(angle).power(psi.point),
+        ];
         case.compare("power_at_delta_theta", powers[0]);
         case.compare("power_at_delta_psi", powers[1]);
     }
@@ -77,12 +109,25 @@ pub(crate) fn distance(case: &Case<'_>) {
     case.compare("distance", closest.distance.abs());
     case.compare("offset_roots", quartic(case).offset_roots(point).to_vec());
     let size = 1.0 + point.length();
-    case.require(closest.point.distance(point) - closest.distance.abs() < 1e-9 * size, "the foot is at another distance");
-    case.require(surface.signed_distance(closest.point).expect("finite").abs() < 1e-9 * size, "the foot is off the surface");
+    case.require(
+        closest.point.distance(point) - closest.distance.abs() < 1e-9 * size,
+        "the foot is at another distance",
+    );
+    case.require(
+        surface
+            .signed_distance(closest.point)
+            .expect("finite")
+            .abs()
+            < 1e-9 * size,
+        "the foot is off the surface",
+    );
 }
 
 pub(crate) fn ray(case: &Case<'_>) {
-    let (origin, direction) = (vector(&case.input()["origin"]), vector(&case.input()["direction"]));
+    let (origin, direction) = (
+        vector(&case.input()["origin"]),
+        vector(&case.input()["direction"]),
+    );
     let hits = surface(case).intersect(origin, direction).expect("a ray");
     case.compare("s", hits.iter().map(|hit| hit.s).collect::<Vec<_>>());
 }
@@ -92,10 +137,16 @@ pub(crate) fn villarceau(case: &Case<'_>) {
         Ok(circle) => {
             case.compare("centre", array(circle.centre()));
             case.compare("radius", circle.radius());
-            case.compare("normal_up_to_sign", up_to_sign(case, "normal_up_to_sign", circle.axis()));
+            case.compare(
+                "normal_up_to_sign",
+                up_to_sign(case, "normal_up_to_sign", circle.axis()),
+            );
         }
         Err(error) => {
-            case.require(matches!(error, Error::NotARing { .. }), "refused for another reason");
+            case.require(
+                matches!(error, Error::NotARing { .. }),
+                "refused for another reason",
+            );
             super::input::refuse(case, &error, &["ring cyclide"]);
         }
     }
@@ -103,22 +154,44 @@ pub(crate) fn villarceau(case: &Case<'_>) {
 
 pub(crate) fn area(case: &Case<'_>) {
     let spans = ["theta", "psi"].map(|name| super::input::span(case, name));
-    case.compare("area", surface(case).area(spans[0], spans[1]).expect("finite spans"));
+    case.compare(
+        "area",
+        surface(case)
+            .area(spans[0], spans[1])
+            .expect("finite spans"),
+    );
 }
 
 pub(crate) fn parabolic(case: &Case<'_>) {
     let surface = surface(case);
-    let (u, v, query) = (case.number("u"), case.number("v"), vector(&case.input()["query"]));
+    let (u, v, query) = (
+        case.number("u"),
+        case.number("v"),
+        vector(&case.input()["query"]),
+    );
     case.compare("point", array(surface.point(u, v)));
     case.compare("normal", array(surface.normal(u, v)));
     case.compare("kind", surface.kind().name());
-    let local: Vec<DVec3> = surface.singular_points().iter().map(|&point| surface.frame().point_to_local(point)).collect();
+    let local: Vec<DVec3> = surface
+        .singular_points()
+        .iter()
+        .map(|&point| surface.frame().point_to_local(point))
+        .collect();
     compare_set(case, "singular_points_local", &local);
     case.compare("cubic_at_query", surface.implicit(query));
-    case.compare("distance_at_query", surface.signed_distance(query).expect("a finite point").abs());
+    case.compare(
+        "distance_at_query",
+        surface
+            .signed_distance(query)
+            .expect("a finite point")
+            .abs(),
+    );
     // A singular point has a whole circle of parameters.
     if surface.area_density(u, v) > 1e-6 {
         let [found_u, found_v] = surface.parameters_at(surface.point(u, v));
-        case.require((found_u - u).abs() + (found_v - v).abs() < 1e-9 * (1.0 + u.abs() + v.abs()), "the parameters are not recovered");
+        case.require(
+            (found_u - u).abs() + (found_v - v).abs() < 1e-9 * (1.0 + u.abs() + v.abs()),
+            "the parameters are not recovered",
+        );
     }
 }

@@ -41,7 +41,7 @@ mod bezier_mass;
 
 // mod cyclide;
 
-// mod geodesic;
+mod geodesic;
 
 // mod lorentz;
 
@@ -63,7 +63,7 @@ pub fn all() -> Vec<Entry> {
 
         // entry::<cyclide::Cyclide>(),
 
-        // entry::<geodesic::Geodesic>(),
+        entry::<geodesic::Geodesic>(),
 
         // entry::<lorentz::Lorentz>(),
 

@@ -1,0 +1,138 @@
+//! Loading, building and locally shortest paths, on a mesh and pairs of the user's so that a peer can be timed beside
+//! us: `--mesh FILE.obj --pairs FILE.json` with `[[v0, v1], ...]`, vertex numbers in file order.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use anyhow::Result;
+use geodesic::{Mesh, PathFinder, TriangleSoup, shapes};
+use serde_json::{Value, json};
+
+use super::{Bench, Timer};
+use crate::demo::OrBadInput;
+
+/// Rounds over all pairs; the last one is reported, when buffers have grown and caches are warm.
+const ROUNDS: usize = 3;
+
+#[derive(clap::Args, Debug)]
+pub(super) struct Geodesic {
+    /// An OBJ file [default: a subdivided icosahedron of 20,480 triangles]
+    #[arg(long, value_name = "FILE")]
+    mesh: Option<PathBuf>,
+    /// Vertex pairs, `[[v0, v1], ...]` [default: 120 random pairs]
+    #[arg(long, value_name = "FILE")]
+    pairs: Option<PathBuf>,
+}
+
+impl Bench for Geodesic {
+    const NAME: &'static str = "geodesic";
+    const ABOUT: &'static str = "Paths on a mesh: load, build, locally shortest";
+
+    fn run(&self, _: &Timer) -> Result<Value> {
+        let mut result = serde_json::Map::new();
+        let soup = match &self.mesh {
+            Some(path) => {
+                let (soup, ms) = timed(|| TriangleSoup::read_obj(path));
+                result.insert("load_ms".into(), json!(ms));
+                let options = tobj::LoadOptions::default();
+                let (parsed, ms) = timed(|| tobj::load_obj(path, &options));
+                parsed.or_bad_input("--mesh FILE")?;
+                result.insert("tobj_ms".into(), json!(ms));
+                soup.or_bad_input("--mesh FILE")?
+            }
+            None => shapes::sphere(5)?.into(),
+        };
+        // The median of three: the first one pays for fresh memory.
+        let mut builds: Vec<f64> = (0..ROUNDS)
+            .map(|_| timed(|| Mesh::new(&soup.positions, &soup.faces)).1)
+            .collect();
+        let mesh = Mesh::new(&soup.positions, &soup.faces).or_bad_input("--mesh FILE")?;
+        result.insert("triangles".into(), json!(mesh.face_count()));
+        result.insert("mesh_bytes".into(), json!(mesh.bytes()));
+        result.insert("build_ms".into(), json!(median(&mut builds)));
+        let pairs = self.pairs(&mesh)?;
+        local(&mesh, &pairs, &mut result)?;
+        result.insert("peak_bytes".into(), json!(peak_bytes()));
+        Ok(Value::Object(result))
+    }
+}
+
+impl Geodesic {
+    fn pairs(&self, mesh: &Mesh) -> Result<Vec<[u32; 2]>> {
+        if let Some(path) = &self.pairs {
+            let text = std::fs::read_to_string(path).or_bad_input("--pairs FILE")?;
+            return serde_json::from_str(&text).or_bad_input("--pairs FILE");
+        }
+        let mut state = 1_u64;
+        let mut vertex = || {
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            ((state >> 33) as usize % mesh.vertex_count()) as u32
+        };
+        Ok((0..120).map(|_| [vertex(), vertex()]).collect())
+    }
+}
+
+/// Times every pair: the whole query and its initial path alone.
+fn local(
+    mesh: &Mesh,
+    pairs: &[[u32; 2]],
+    result: &mut serde_json::Map<String, Value>,
+) -> Result<()> {
+    let mut finder = PathFinder::new(mesh);
+    let (mut whole, mut initial, mut lengths) = (Vec::new(), Vec::new(), Vec::new());
+    let mut not_geodesic = 0;
+    for round in 0..ROUNDS {
+        whole.clear();
+        initial.clear();
+        for &[from, to] in pairs {
+            let (from, to) = (mesh.vertex_point(from), mesh.vertex_point(to));
+            let (from, to) = (
+                from.or_bad_input("--pairs FILE")?,
+                to.or_bad_input("--pairs FILE")?,
+            );
+            whole.push(timed(|| finder.shortest(from, to).map(drop)).1);
+            initial.push(timed(|| finder.search_only(from, to)).1);
+            if round + 1 == ROUNDS {
+                let path = finder.shortest(from, to).or_bad_input("--pairs FILE")?;
+                lengths.push(path.length());
+                not_geodesic += usize::from(!path.certify(mesh)?.is_geodesic());
+            }
+        }
+    }
+    let mut shorten: Vec<f64> = whole
+        .iter()
+        .zip(&initial)
+        .map(|(w, i)| (w - i).max(0.0))
+        .collect();
+    result.insert("pairs".into(), json!(pairs.len()));
+    result.insert("local_median_ms".into(), json!(median(&mut whole)));
+    result.insert("initial_median_ms".into(), json!(median(&mut initial)));
+    result.insert("shorten_median_ms".into(), json!(median(&mut shorten)));
+    result.insert("not_geodesic".into(), json!(not_geodesic));
+    result.insert("lengths".into(), json!(lengths));
+    Ok(())
+}
+
+/// What a call gives, and its time in milliseconds.
+fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let value = work();
+    (value, start.elapsed().as_secs_f64() * 1e3)
+}
+
+fn median(times: &mut [f64]) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times.get(times.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+/// The most memory that this process has had, in bytes, where the system says it.
+fn peak_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kilobytes: u64 = line.trim().trim_end_matches("kB").trim().parse().ok()?;
+    Some(1024 * kilobytes)
+}
