@@ -43,6 +43,14 @@ impl Exact {
 }
 
 impl Exact {
+    /// For a number of `[0, 1]`: itself and its complement to 1, in the same unit.
+    pub(crate) fn share(&self) -> (BigInt, BigInt) {
+        let unit = BigInt::from(1) << self.exponent.min(0).unsigned_abs();
+        let own = &self.mantissa << self.exponent.max(0).unsigned_abs();
+        let complement = unit - &own;
+        (own, complement)
+    }
+
     pub(crate) fn to_rational(&self) -> BigRational {
         if self.exponent >= 0 {
             BigRational::from(&self.mantissa << self.exponent.unsigned_abs())

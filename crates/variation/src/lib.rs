@@ -20,6 +20,8 @@ pub mod sets;
 mod sharp;
 mod sign_changes;
 mod solver;
+#[cfg(feature = "exact")]
+mod sturm;
 mod subdivision;
 
 pub use bound::{
@@ -44,3 +46,5 @@ pub use sign_changes::{
     sign_changes_right,
 };
 pub use solver::{DEFAULT_TOLERANCE, Solver, roots, roots_on};
+#[cfg(feature = "exact")]
+pub use sturm::{SturmChain, Verdict};

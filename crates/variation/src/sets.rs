@@ -117,6 +117,37 @@ impl Set {
     }
 }
 
+/// A random polynomial of this degree with planted roots in `[0, 1]`: single, double, clustered down to `1e-9` apart, at the
+/// ends, complex and outside; rounded, so that its exact roots are near the planted ones only.
+#[must_use]
+pub fn planted(degree: usize, random: &mut SplitMix64) -> Vec<f64> {
+    let mut product = Product::new();
+    while product.degree() < degree {
+        let missing = degree - product.degree();
+        let root = match random.bits() % 8 {
+            // Dyadic roots survive the rounding, double ones included.
+            0 => (random.bits() % 17) as f64 / 16.0,
+            _ => random.unit(),
+        };
+        match random.bits() % 10 {
+            0 | 1 if missing >= 2 => {
+                product.root(root);
+                product.root(root);
+            }
+            2 | 3 if missing >= 2 => {
+                product.root(root);
+                product.root(root + 10.0_f64.powi(-((random.bits() % 9) as i32 + 1)));
+            }
+            4 => product.root(0.0),
+            5 => product.root(1.0),
+            6 if missing >= 2 => product.complex_pair(root, 1e-6 + random.unit()),
+            7 => product.root(-1.0 - random.unit()),
+            _ => product.root(root),
+        }
+    }
+    product.normalised()
+}
+
 /// The generator `splitmix64` (Steele, Lea and Flood 2014).
 #[derive(Clone, Copy, Debug)]
 pub struct SplitMix64 {
@@ -152,6 +183,10 @@ struct Product(Vec<f64>);
 impl Product {
     fn new() -> Self {
         Self(vec![1.0])
+    }
+
+    fn degree(&self) -> usize {
+        self.0.len() - 1
     }
 
     /// Multiplies by `t - r`.
