@@ -233,6 +233,14 @@ pub enum Error {
         /// Number of boundary edges.
         boundaries: usize,
     },
+    /// Two loops do not generate all classes of loops.
+    #[error(
+        "the two loops do not generate all classes: their crossings have determinant {determinant}, not 1 or -1"
+    )]
+    NotABasis {
+        /// Determinant of their crossings with two dual curves.
+        determinant: i32,
+    },
     /// Breaklines cross, or use a repeated point.
     #[error(
         "breakline {breakline} cannot be kept: it crosses another one or joins a point to itself"

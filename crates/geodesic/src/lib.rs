@@ -15,6 +15,7 @@ pub mod shapes;
 mod straightest;
 mod strip;
 mod surface_point;
+mod torus;
 
 #[cfg(feature = "closest-point")]
 pub use closest::{Closest, ClosestPoint};
@@ -33,3 +34,4 @@ pub use pivot::Update;
 pub use straightest::{AtBoundary, Stop, Straightest, Trace};
 pub use strip::Side;
 pub use surface_point::{OUTSIDE, SNAP, SurfacePoint};
+pub use torus::TorusClasses;

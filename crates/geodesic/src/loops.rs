@@ -127,9 +127,16 @@ impl<'m> LoopFinder<'m> {
     /// An error about a point; [`Error::NoPath`]; [`Error::ShortLoop`] for fewer than two points; [`Error::NullLoop`]
     /// if the loop shrinks to a point, as it does where it is contractible; [`Error::NotConverged`].
     pub fn tighten(&mut self, points: &[SurfacePoint]) -> Result<GeodesicLoop, Error> {
-        let (points, faces) = self.join(points)?;
-        let cycle = cycle_of(self.finder.mesh(), &points, &faces);
+        let cycle = self.cycle(points)?;
         self.tighten_cycle(cycle)
+    }
+
+    /// The portals that a closed polyline crosses.
+    pub(crate) fn cycle(&mut self, points: &[SurfacePoint]) -> Result<Vec<u32>, Error> {
+        let (points, faces) = self.join(points)?;
+        let mut cycle = cycle_of(self.finder.mesh(), &points, &faces);
+        reduce(self.finder.mesh(), &mut cycle);
+        Ok(cycle)
     }
 
     /// The shortest loop in the class of a closed polyline that passes through its first point: a geodesic except for a
@@ -230,12 +237,11 @@ impl<'m> LoopFinder<'m> {
     }
 
     /// Tightens the loop that crosses these portals in turn, the last one leading to the first.
-    pub(crate) fn tighten_cycle(&mut self, mut cycle: Vec<u32>) -> Result<GeodesicLoop, Error> {
+    fn tighten_cycle(&mut self, cycle: Vec<u32>) -> Result<GeodesicLoop, Error> {
         let mesh = self.finder.mesh();
         // Every round ends the job or shortens the loop; a loop has a few rounds for each vertex that it passes.
         let limit = 20 * mesh.face_count() + 100;
         let mut updates = 0;
-        reduce(mesh, &mut cycle);
         let Some(&first) = cycle.first() else {
             return Err(self.null_loop_at(mesh.origin(0), 0.0));
         };

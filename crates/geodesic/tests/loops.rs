@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use geodesic::glam::DVec3;
-use geodesic::{Error, LoopFinder, Mesh, SurfacePoint, shapes};
+use geodesic::{Error, LoopFinder, Mesh, SurfacePoint, TorusClasses, shapes};
 
 const MAJOR: f64 = 2.0;
 const MINOR: f64 = 0.7;
@@ -117,4 +117,48 @@ fn loops_through_a_point_in_a_direction() {
             "{answer:?}"
         );
     }
+}
+
+/// Closed geodesics of the smooth torus by Clairaut's relation: lengths to which those of the mesh converge.
+#[test]
+fn classes_of_a_torus() {
+    let smooth = [
+        ((1, 0), 2.0 * PI * (MAJOR - MINOR)),
+        ((0, 1), 2.0 * PI * MINOR),
+        ((1, 1), 11.03249195),
+        ((1, 2), 13.98491680),
+    ];
+    for (around, tube, tolerance) in [(24, 12, 6e-3), (64, 32, 1e-3)] {
+        let mesh = shapes::torus(MAJOR, MINOR, around, tube).unwrap();
+        let mut classes =
+            TorusClasses::new(&mesh, &row(around, 0), &column(around, tube, 0)).unwrap();
+        for ((p, q), length) in smooth {
+            let geodesic = classes.shortest(p, q).unwrap();
+            assert!(geodesic.certify(&mesh).unwrap().is_geodesic());
+            let error = geodesic.length() / length - 1.0;
+            assert!(
+                error.abs() < tolerance * 3.0,
+                "({p}, {q}) on {around}: {error}"
+            );
+            let mut points = geodesic.path().points().to_vec();
+            points.pop();
+            assert_eq!(classes.class_of(&points), Ok([p, q]));
+        }
+        assert!(matches!(
+            classes.shortest(0, 0),
+            Err(Error::NullLoop { .. })
+        ));
+    }
+    let sphere = shapes::sphere(1).unwrap();
+    let answer = TorusClasses::new(&sphere, &[0.into(), 1.into()], &[2.into(), 3.into()]);
+    assert!(matches!(
+        answer,
+        Err(Error::NotATorus {
+            euler: 2,
+            boundaries: 0
+        })
+    ));
+    let mesh = shapes::torus(MAJOR, MINOR, 12, 8).unwrap();
+    let answer = TorusClasses::new(&mesh, &row(12, 0), &row(12, 3));
+    assert!(matches!(answer, Err(Error::NotABasis { determinant: 0 })));
 }
