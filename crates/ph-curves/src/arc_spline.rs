@@ -156,6 +156,33 @@ impl Piece {
         }
     }
 
+    /// Derivative of the point by `t`.
+    #[must_use]
+    pub fn velocity(&self, t: f64) -> DVec2 {
+        match self {
+            Self::Segment(segment) => segment.end - segment.start,
+            Self::Arc(arc) => arc.local.velocity(t),
+            Self::Wide(arc) => arc.local.velocity(t),
+        }
+    }
+
+    /// Distance of `point` to the piece.
+    #[must_use]
+    pub fn distance(&self, point: DVec2) -> f64 {
+        let feet = match self {
+            Self::Segment(segment) => {
+                let along = segment.end - segment.start;
+                vec![((point - segment.start).dot(along) / along.length_squared()).clamp(0.0, 1.0)]
+            }
+            Self::Arc(arc) => arc.local.feet(point - arc.origin),
+            Self::Wide(arc) => arc.local.feet(point - arc.origin),
+        };
+        let away = |t: f64| (self.point(t) - point).length();
+        feet.into_iter()
+            .map(away)
+            .fold(away(0.0).min(away(1.0)), f64::min)
+    }
+
     /// Signed turning angle of the normal, zero on a segment.
     #[must_use]
     pub fn turning(&self) -> f64 {
@@ -274,13 +301,15 @@ pub enum Joint {
     G2,
     /// Common point and normal.
     G1,
+    /// Common point: the tangent turns, as where a trimmed offset changes from one branch to another.
+    Corner,
 }
 
 /// A chain of PH arcs and straight segments with continuous normal: a front, not only a curve.
 ///
 /// Corners are arcs of radius zero that turn the normal, so that every offset is again such a chain: a corner becomes
-/// a circular arc on its outer side. The offset at distance d moves every point by d along its normal, to the
-/// *right* of travel for positive d. It is exact, and it may have cusps and loops; see [`ArcSpline::trim`].
+/// a circular arc on its outer side; only trimmed splines have joints of kind [`Joint::Corner`]. The offset at distance d moves every point by d along its normal, to the
+/// *right* of travel for positive d. It is exact, and it may have cusps and loops; see [`ArcSpline::trimmed_offset`].
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ArcSpline {

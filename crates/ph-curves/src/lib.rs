@@ -13,6 +13,8 @@ mod dual;
 mod error;
 mod fit;
 mod interpolator;
+#[cfg(feature = "kurbo")]
+mod kurbo_path;
 mod line;
 mod minkowski;
 mod ph_arc;
@@ -26,6 +28,7 @@ mod rosette;
 mod sampled;
 mod spatial;
 mod t_cubic;
+mod trim;
 
 pub use approximate::{Approximated, Approximation, Arcs, Breakpoints, approximate, breakpoints};
 pub use arc_length::ArcLength;
@@ -57,3 +60,4 @@ pub use spatial::{
     euler_rodrigues_tube, rotation_minimising_frames, rotation_minimising_tube,
 };
 pub use t_cubic::TCubic;
+pub use trim::Crossing;

@@ -195,6 +195,14 @@ impl<const N: usize> PhArc<N> {
         w.rotate(numerator).perp() / (2.0 * self.kappa() * w.length_squared())
     }
 
+    /// Derivative of the point by `t`: `R (d psi/dt) i N`.
+    #[must_use]
+    pub fn velocity(&self, t: f64) -> DVec2 {
+        let w = self.spinor(t);
+        let length = w.length_squared();
+        square(w).perp() * (self.radius(t) * 2.0 * self.kappa() / (length * length))
+    }
+
     /// Signed radius of curvature at `t`.
     #[must_use]
     pub fn radius(&self, t: f64) -> f64 {
@@ -580,6 +588,24 @@ impl<const N: usize> PhArc<N> {
             return Vec::new();
         }
         variation::roots(&radius).map_or_else(
+            |_| Vec::new(),
+            |roots| roots.iter().map(|root| root.value()).collect(),
+        )
+    }
+
+    /// Parameters in `[0, 1]` of the points whose normal passes through `point`: the critical points of the distance,
+    /// isolated and certified as roots of a polynomial of degree `N`. None if every normal does (a circle about it).
+    #[must_use]
+    pub fn feet(&self, point: DVec2) -> Vec<f64> {
+        let normals = self.control_normals();
+        // The tangent at t is h/q away, h = <n, X> - g; critical where h' q - h q' = 0, of degree N.
+        let h: Vec<f64> = (0..N).map(|k| normals[k].dot(point) - self.g[k]).collect();
+        let q = self.normal_length();
+        let first = bernstein::product(&q, &bernstein::derivative(&h));
+        let second = bernstein::product(&bernstein::derivative(&q), &h);
+        let rate: Vec<f64> = first.iter().zip(&second).map(|(a, b)| a - b).collect();
+        let mut solver = variation::Solver::new().without_exact();
+        solver.roots(&rate).map_or_else(
             |_| Vec::new(),
             |roots| roots.iter().map(|root| root.value()).collect(),
         )
