@@ -1,1 +1,99 @@
-//! Wavefronts in dual Bézier form: propagation, reflection, transmission, caustics and anisotropy
+//! Wavefronts in dual Bézier form: propagation, reflection, transmission, caustics and anisotropy.
+//!
+//! A front in a homogeneous medium is the envelope of its tangent lines. Stored by those lines, as a spline of class-3
+//! Pythagorean-hodograph arcs, it propagates by translating them, exactly and at any time, and it stays regular where the
+//! curve itself has cusps:
+//!
+//! ```text
+//!      source *                 support p(N), the eikonal: the wave with normal N
+//!           / | \               passes X at the time <N, X> - p(N)
+//!     -----/--+--\-----  interface
+//!         /   |   \             front at time T:   p + T
+//!        (    |    )            caustic: the evolute, piecewise cubic
+//! ```
+//!
+//! # First program
+//!
+//! The reflected wave in a layer over a curved interface: its arrivals, and its front.
+//!
+//! ```
+//! use wavefront::{Code, Fan, FanOptions, FrontTolerance, Interface, Medium, Mode, Model, Source, Step};
+//! use wavefront::glam::DVec2;
+//!
+//! let media = vec![Medium::isotropic(1500.0)?, Medium::isotropic(2200.0)?];
+//! let valley = Interface::graph(-3000.0, 3000.0, 60, |x: f64| {
+//!     let (sine, cosine) = (x / 600.0).sin_cos();
+//!     [-800.0 + 120.0 * cosine, -0.2 * sine, -0.2 / 600.0 * cosine]
+//! })?;
+//! let model = Model::try_new(DVec2::new(-2500.0, -2000.0), DVec2::new(2500.0, 100.0), media, vec![valley])?;
+//!
+//! let code = Code { steps: vec![Step { interface: 0, mode: Mode::Reflect }] };
+//! let fan = Fan::new(&model, Source::point(DVec2::ZERO), code, FanOptions::default())?;
+//! let arrivals = fan.arrivals(DVec2::new(400.0, 0.0));
+//! assert!(!arrivals.is_empty() && arrivals[0].time > 0.9);
+//!
+//! for front in fan.fronts(FrontTolerance::time(1e-6))? {
+//!     assert!(front.error() <= 1e-6);
+//!     let caustic_pieces = front.caustic().count();
+//!     assert!(caustic_pieces > 0);
+//! }
+//! # Ok::<(), wavefront::Error>(())
+//! ```
+//!
+//! # The types
+//!
+//! | type | what it is |
+//! |---|---|
+//! | [`Medium`] | a speed, an elliptical indicatrix, or any rational one |
+//! | [`Interface`] | a line, conic, Bézier or B-spline curve, a graph, conics fitted to samples |
+//! | [`Model`] | media one below the other, checked; [`Code`] says which interfaces a wave meets and how |
+//! | [`Source`] | a point, a plane wave, an exploding reflector, or a front |
+//! | [`Ray`] | point, slowness, time and their derivatives along the wave: Snell's law and the ray tube |
+//! | [`Fan`] | all rays of a source with one code: [`Arrival`]s at receivers, boundaries of illumination |
+//! | [`Front`] | a G1 spline of class-3 arcs: snapshots, cusps, caustics, arrivals |
+//! | [`DualSurface`] | fronts in space by their support function |
+//!
+//! # Accuracy
+//!
+//! Rays are exact to rounding: impacts on conics in closed form, on Bézier curves by certified roots, Snell's law by the
+//! conservation of the slowness along the interface. A ray through a receiver is found to 1e-10 of the model's size, and
+//! its time, being stationary, to the square of that. Fronts are fitted to a tolerance that is measured on other exact rays
+//! than those that were fitted. What is not certified: a ray pair that both sets out and returns between two sampled rays
+//! without showing in the slopes at their ends is missed; [`FanOptions`] sets how close samples are.
+//!
+//! # Left open
+//!
+//! Finding a reflector from its front; fronts of class-3 arcs in media whose indicatrix is no ellipse (their rays, arrivals
+//! and exact propagation by `ph_curves::IsoperimetricArc` work); re-approximation of fronts in space by G1 patches.
+//!
+//! # References
+//!
+//! - L. Biard, habilitation thesis, Chapter 5 (the method) and Section 1.4 (the Minkowski plane).
+//! - V. Červený, *Seismic Ray Theory*, Cambridge 2001 (ray tubes, anisotropic reflection and transmission).
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeDoctests;
+
+mod arrival;
+mod error;
+mod fan;
+mod front;
+mod interface;
+mod medium;
+mod model;
+mod ray;
+mod source;
+mod space;
+
+pub use arrival::{Arrival, first_arrival, section, travel_time_table};
+pub use error::Error;
+pub use fan::{Fan, FanOptions};
+pub use front::{Cusp, Front, FrontPiece, FrontTolerance, PieceShape};
+pub use glam;
+pub use interface::{Impact, Interface};
+pub use medium::Medium;
+pub use model::{Code, Model, Step, Trace};
+pub use ray::{Mode, Ray};
+pub use source::Source;
+pub use space::{DualSurface, Mirror, SampledSurface, SpacePoint};
