@@ -73,6 +73,14 @@ pub enum Error {
         /// The discriminant `w1^2 - w0 w2`.
         discriminant: f64,
     },
+    /// A spline of this degree is not supported.
+    #[error("degree {degree} is above {largest}, the largest for splines")]
+    DegreeTooHigh {
+        /// The degree that was given.
+        degree: usize,
+        /// The largest one that is accepted.
+        largest: usize,
+    },
     /// The knots do not increase.
     #[error("knot {index} is {knot}, below the one before it, {before}")]
     KnotsDecrease {
@@ -102,5 +110,13 @@ pub enum Error {
         start: f64,
         /// End of the domain.
         end: f64,
+    },
+    /// An approximation did not become as accurate as asked.
+    #[error("an accuracy of {accuracy} was asked for and {error} was reached")]
+    AccuracyNotReached {
+        /// The accuracy that was asked for.
+        accuracy: f64,
+        /// The certified error that was reached.
+        error: f64,
     },
 }

@@ -7,6 +7,7 @@ use crate::Error;
 /// Every finite `f64` converts into one; [`Parameter::INFINITY`] is `1 : 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "[f64; 2]", into = "[f64; 2]"))]
 pub struct Parameter {
     numerator: f64,
     denominator: f64,
@@ -70,6 +71,21 @@ impl From<f64> for Parameter {
     }
 }
 
+/// From the pair `[numerator, denominator]`.
+impl TryFrom<[f64; 2]> for Parameter {
+    type Error = Error;
+
+    fn try_from([numerator, denominator]: [f64; 2]) -> Result<Self, Error> {
+        Self::new(numerator, denominator)
+    }
+}
+
+impl From<Parameter> for [f64; 2] {
+    fn from(parameter: Parameter) -> Self {
+        [parameter.numerator, parameter.denominator]
+    }
+}
+
 /// The change of parameter `h(u) = (a (1-u) + b u) / (c (1-u) + d u)` with `ad - bc != 0`
 /// (mass-point paper, Section 2.2).
 ///
@@ -78,6 +94,7 @@ impl From<f64> for Parameter {
 /// same sign) and the complementary one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "[f64; 4]", into = "[f64; 4]"))]
 pub struct Homography {
     start: Parameter,
     end: Parameter,
@@ -204,6 +221,21 @@ impl Homography {
         let [start, end] =
             [[s, -q], [-r, p]].map(|[x, y]| [y / determinant, (x + y) / determinant]);
         Self::new(start[0], end[0], start[1], end[1])
+    }
+}
+
+/// From the coefficients `[a, b, c, d]`.
+impl TryFrom<[f64; 4]> for Homography {
+    type Error = Error;
+
+    fn try_from([a, b, c, d]: [f64; 4]) -> Result<Self, Error> {
+        Self::new(a, b, c, d)
+    }
+}
+
+impl From<Homography> for [f64; 4] {
+    fn from(homography: Homography) -> Self {
+        homography.coefficients()
     }
 }
 

@@ -22,6 +22,10 @@ pub struct Knots {
 }
 
 impl Knots {
+    /// The largest degree that is accepted: beyond it de Boor's recursion has no correct digits left in general, and a
+    /// degree read from a damaged file does not ask for all memory.
+    pub const MAX_DEGREE: usize = 64;
+
     /// The knot vector as it is written in most books and files, clamped or not.
     ///
     /// # Errors
@@ -76,6 +80,7 @@ impl Knots {
                 needed: 2,
             });
         };
+        check_order(degree, breakpoints)?;
         let repeated = |knot| core::iter::repeat_n(knot, degree);
         Self::new(
             degree,
@@ -145,6 +150,13 @@ impl Knots {
     /// # Errors
     /// [`Error::WrongCount`] for fewer control points than the degree, or degree zero.
     pub fn periodic_uniform(degree: usize, controls: usize) -> Result<Self, Error> {
+        if controls < degree {
+            return Err(Error::WrongCount {
+                what: "control mass points",
+                found: controls,
+                needed: degree,
+            });
+        }
         let breakpoints: Vec<f64> = (0..=controls)
             .map(|i| i as f64 / controls.max(1) as f64)
             .collect();
@@ -373,6 +385,12 @@ impl Knots {
 
 /// Refuses degree zero, non-finite and decreasing knots.
 fn check_order(degree: usize, knots: &[f64]) -> Result<(), Error> {
+    if degree > Knots::MAX_DEGREE {
+        return Err(Error::DegreeTooHigh {
+            degree,
+            largest: Knots::MAX_DEGREE,
+        });
+    }
     if degree == 0 {
         return Err(Error::WrongCount {
             what: "degree of the spline",
@@ -457,7 +475,11 @@ mod tests {
         ));
         assert!(matches!(
             new(usize::MAX, &[0.0, 1.0]),
-            Err(Error::WrongCount { .. })
+            Err(Error::DegreeTooHigh { .. })
+        ));
+        assert!(matches!(
+            Knots::clamped(usize::MAX, &[0.0, 1.0]),
+            Err(Error::DegreeTooHigh { .. })
         ));
         assert!(matches!(
             new(1, &[0.0, 0.0, f64::NAN, 1.0]),

@@ -17,6 +17,8 @@ mod quadratic;
 mod vector_space;
 
 pub mod bernstein;
+#[cfg(feature = "kurbo")]
+pub mod path;
 
 pub use arc::Half;
 pub use biquadratic::Biquadratic;
