@@ -60,7 +60,6 @@ mod render;
 pub fn all() -> Vec<Entry> {
     vec![
         entry::<bezier_mass::BezierMass>(),
-
         // entry::<cyclide::Cyclide>(),
 
         entry::<geodesic::Geodesic>(),

@@ -79,7 +79,7 @@ mod mass_points;
 
 // mod ovals;
 
-// mod pencils;
+mod pencils;
 
 // mod ribbon;
 
@@ -124,15 +124,11 @@ pub fn all() -> Vec<Entry> {
         // entry::<geodesic_patch::GeodesicPatch>(),
 
         // entry::<geodesic_surface::GeodesicSurface>(),
-
         entry::<mass_points::MassPoints>(),
-
         // entry::<minkowski::Minkowski>(),
 
         // entry::<ovals::Ovals>(),
-
-        // entry::<pencils::Pencils>(),
-
+        entry::<pencils::Pencils>(),
         // entry::<ribbon::Ribbon>(),
 
         // entry::<ribbon_surface::RibbonSurface>(),
