@@ -61,9 +61,7 @@ pub fn all() -> Vec<Entry> {
     vec![
         entry::<bezier_mass::BezierMass>(),
         // entry::<cyclide::Cyclide>(),
-
         entry::<geodesic::Geodesic>(),
-
         // entry::<lorentz::Lorentz>(),
 
         // entry::<ph_curves::PhCurves>(),

@@ -164,11 +164,6 @@ fn dual_circle_residual(pencil: &Pencil) -> f64 {
 fn derivative_error(patch: &CanalCurve) -> f64 {
     (1..100)
         .filter_map(|i| {
-            hyperbola.segment(
-                dvec2(-3.0, -3.0 * side),
-                dvec2(3.0, 3.0 * side),
-                label(GREY.line().width(0.8), "limit points (light-like)"),
-            );
             let member = patch.at(f64::from(i) / 100.0);
             Some(member.sphere()?.product(member.derivative_sphere()?).abs())
         })
@@ -268,6 +263,11 @@ fn draw_planes(context: &mut Context, nets: &[Net; 3]) -> Result<()> {
     hyperbola.view(dvec2(-2.6, -2.6), dvec2(2.6, 2.6));
     for side in [1.0, -1.0] {
         let label = |style: Style, text: &str| if side > 0.0 { style.label(text) } else { style };
+        hyperbola.segment(
+            dvec2(-3.0, -3.0 * side),
+            dvec2(3.0, 3.0 * side),
+            label(GREY.line().width(0.8), "limit points (light-like)"),
+        );
         let member =
             |s: f64| side * coordinates(&nets[2].pencil, nets[2].pencil.member(s).vector());
         let tangent = |s: f64| side * coordinates(&nets[2].pencil, nets[2].pencil.derivative(s));
