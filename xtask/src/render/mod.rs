@@ -34,6 +34,7 @@ mod picture;
 mod sampler;
 mod scene;
 mod shade;
+mod wide;
 
 pub use accel::{Accel, Hit};
 pub use camera::Camera;

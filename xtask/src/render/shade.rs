@@ -168,8 +168,8 @@ impl<'a> Shader<'a> {
 
     fn key_visibility(&self, start: Vec3A, normal: Vec3A, sampler: &mut Sampler) -> f32 {
         let towards = self.studio.key_sample(sampler.pair());
-        if towards.dot(normal) > 0.0 && self.accel.is_free(start, towards, f32::INFINITY) {
-            self.accel.clearness(start, towards)
+        if towards.dot(normal) > 0.0 {
+            self.accel.light(start, towards)
         } else {
             0.0
         }
