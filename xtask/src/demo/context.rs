@@ -27,7 +27,7 @@ pub struct Settings {
     /// Height of rendered pictures in pixels [default: three quarters of the width]
     #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=16384))]
     pub height: Option<u32>,
-    /// Rays per pixel of rendered pictures [default: 32, quick 8]
+    /// Rays per edge pixel of rendered pictures; a quarter inside surfaces [default: 32, quick 8]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub samples: Option<u32>,
     /// Seed of everything random
@@ -102,7 +102,7 @@ impl Context {
             .unwrap_or((self.width() * 3).div_ceil(4))
     }
 
-    /// Rays per pixel of rendered pictures.
+    /// Rays per edge pixel of rendered pictures.
     #[must_use]
     pub fn samples(&self) -> u32 {
         self.settings

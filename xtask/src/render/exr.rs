@@ -13,37 +13,33 @@ use exr::prelude::{
     LineOrder, SmallVec, Vec2, WritableImage,
 };
 
-use super::picture::Pixel;
+use super::picture::Picture;
 
-pub(super) fn write(
-    width: u32,
-    height: u32,
-    pixels: &[Pixel],
-    layer: Option<&str>,
-    writer: impl Write + Seek,
-) -> Result<()> {
-    let floats = |name: &str, value: &dyn Fn(&Pixel) -> f32| {
-        AnyChannel::new(name, FlatSamples::F32(pixels.iter().map(value).collect()))
-    };
-    let ids = FlatSamples::U32(pixels.iter().map(|pixel| pixel.id).collect());
+pub(super) fn write(picture: &Picture, writer: impl Write + Seek) -> Result<()> {
+    let floats = |name: &str, values: Vec<f32>| AnyChannel::new(name, FlatSamples::F32(values));
+    let color = |channel: usize| picture.colors().map(move |color| color[channel]).collect();
+    let normal = |axis: usize| picture.normals().map(move |normal| normal[axis]).collect();
     let mut channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = SmallVec::new();
-    channels.push(floats("R", &|p| p.color[0]));
-    channels.push(floats("G", &|p| p.color[1]));
-    channels.push(floats("B", &|p| p.color[2]));
-    channels.push(floats("A", &|p| p.color[3]));
-    channels.push(floats("depth.Z", &|p| p.depth));
-    channels.push(floats("normal.X", &|p| p.normal[0]));
-    channels.push(floats("normal.Y", &|p| p.normal[1]));
-    channels.push(floats("normal.Z", &|p| p.normal[2]));
-    channels.push(AnyChannel::new("id.I", ids));
-    if let Some(name) = layer {
-        channels.push(floats(name, &|p| p.scalar));
+    for (channel, name) in ["R", "G", "B", "A"].into_iter().enumerate() {
+        channels.push(floats(name, color(channel)));
+    }
+    channels.push(floats("depth.Z", picture.depths().collect()));
+    for (axis, name) in ["normal.X", "normal.Y", "normal.Z"].into_iter().enumerate() {
+        channels.push(floats(name, normal(axis)));
+    }
+    channels.push(AnyChannel::new(
+        "id.I",
+        FlatSamples::U32(picture.ids().collect()),
+    ));
+    if let Some(name) = picture.layer_name() {
+        channels.push(floats(name, picture.scalars().collect()));
     }
     let encoding = Encoding {
         compression: Compression::ZIP16,
         blocks: Blocks::ScanLines,
         line_order: LineOrder::Increasing,
     };
+    let [width, height] = picture.size();
     let size = Vec2(width as usize, height as usize);
     let layer = Layer::new(
         size,

@@ -27,6 +27,7 @@
 
 mod accel;
 mod camera;
+mod denoise;
 mod environment;
 mod exr;
 mod material;
@@ -42,13 +43,14 @@ pub use material::{Finish, Material, Paint};
 pub use picture::Picture;
 pub use scene::Scene;
 
-use glam::{Vec3A, vec3a};
+use glam::Vec3A;
 use rayon::prelude::*;
 
+use denoise::{Frame, Mean, denoise};
 use environment::Studio;
-use picture::Pixel;
+use picture::Seen;
 use sampler::Sampler;
-use shade::Shader;
+use shade::{Sample, Shader};
 
 /// Size and quality of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,17 +59,17 @@ pub struct Options {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Most rays through a pixel. Pixels whose colour has settled get fewer.
+    /// Rays through a pixel on an edge. Pixels inside a surface get a quarter of them, and their light
+    /// is smoothed.
     pub samples: u32,
     /// Seed of the random numbers.
     pub seed: u64,
 }
 
-/// Rays through a pixel before it is asked whether it has settled.
-const FIRST_SAMPLES: u32 = 8;
-/// A pixel has settled when the standard error of its brightness, as displayed, is below this: one
-/// step of an 8-bit picture.
-const SETTLED: f32 = 1.0 / 255.0;
+/// Pixels inside a surface get one ray for so many of an edge pixel.
+const INSIDE: u32 = 4;
+/// Surfaces darker than this have no lighting to speak of.
+const DARK: f32 = 1e-4;
 
 /// Renders a scene on all cores. `row_done` is called once per finished row, from any thread.
 #[must_use]
@@ -81,22 +83,31 @@ pub fn render(
     let studio = Studio::new(scene, camera);
     let shader = Shader::new(scene, &accel, &studio);
     let view = View::new(camera, &accel, options);
-    let rows: Vec<Vec<Pixel>> = (0..options.height)
-        .into_par_iter()
-        .map(|y| {
-            let row = (0..options.width)
-                .map(|x| pixel(&shader, &view, x, y))
+    let (width, height) = (options.width, options.height);
+    let rows = || (0..height).into_par_iter();
+    let seen: Vec<Seen> = rows()
+        .flat_map_iter(|y| {
+            let (shader, view) = (&shader, &view);
+            (0..width)
+                .map(move |x| shader.seen(view.eye, view.through(x, y), view.forward, view.unit))
+        })
+        .collect();
+    let frame = Frame::new(width, height, &seen);
+    let samples: Vec<Mean> = rows()
+        .flat_map_iter(|y| {
+            let row: Vec<Mean> = (0..width)
+                .map(|x| pixel(&shader, &view, &frame, x, y))
                 .collect();
             row_done(y);
             row
         })
         .collect();
-    let layer = scene.layer_name().map(str::to_owned);
+    let colors = denoise(&frame, &samples);
     Picture::new(
-        options.width,
-        options.height,
-        rows.into_iter().flatten().collect(),
-        layer,
+        [width, height],
+        colors,
+        seen,
+        scene.layer_name().map(str::to_owned),
     )
 }
 
@@ -125,6 +136,11 @@ impl View {
         }
     }
 
+    /// Unit direction through the middle of a pixel.
+    fn through(&self, x: u32, y: u32) -> Vec3A {
+        self.direction(x as f32 + 0.5, y as f32 + 0.5)
+    }
+
     /// Unit direction through the point `(x, y)` of the picture, in pixels.
     fn direction(&self, x: f32, y: f32) -> Vec3A {
         let (width, height) = (self.options.width as f32, self.options.height as f32);
@@ -132,44 +148,41 @@ impl View {
     }
 }
 
-fn pixel(shader: &Shader<'_>, view: &View, x: u32, y: u32) -> Pixel {
-    let number = u64::from(y) * u64::from(view.options.width) + u64::from(x);
-    let (centre_x, centre_y) = (x as f32 + 0.5, y as f32 + 0.5);
-    let centre = view.direction(centre_x, centre_y);
-    let mut pixel = shader.first_hit(view.eye, centre, view.forward, view.unit);
-    let samples = view.options.samples.max(1);
-    let (mut sum, mut mean, mut spread) = (Vec3A::ZERO, 0.0_f32, 0.0_f32);
-    let mut count = 0;
-    for index in 0..samples {
-        let mut sampler = Sampler::new(view.options.seed, number, index);
-        let [u, v] = sampler.pair();
-        let jitter = if samples == 1 {
-            [0.0; 2]
-        } else {
-            [tent(u), tent(v)]
-        };
-        let direction = view.direction(centre_x + jitter[0], centre_y + jitter[1]);
-        let color = shader.radiance(view.eye, direction, &mut sampler);
-        sum += color;
-        count += 1;
-        // Welford's running variance of the displayed brightness.
-        let shown = color
-            .dot(vec3a(0.2126, 0.7152, 0.0722))
-            .clamp(0.0, 1.5)
-            .sqrt();
-        let off = shown - mean;
-        mean += off / count as f32;
-        spread += off * (shown - mean);
-        if count >= FIRST_SAMPLES && count % 4 == 0 {
-            let variance = spread / (count - 1) as f32 / count as f32;
-            if variance < SETTLED * SETTLED {
-                break;
-            }
-        }
+/// The mean of the light through a pixel.
+fn pixel(shader: &Shader<'_>, view: &View, frame: &Frame<'_>, x: u32, y: u32) -> Mean {
+    let options = view.options;
+    let number = u64::from(y) * u64::from(options.width) + u64::from(x);
+    let is_edge = frame.is_edge(x, y);
+    // What is seen through glass has edges of its own.
+    let count = if is_edge || frame.is_clear(x, y) {
+        options.samples
+    } else {
+        options.samples / INSIDE
     }
-    let color = sum / count as f32;
-    pixel.color = [color.x, color.y, color.z, 1.0];
-    pixel
+    .max(1);
+    let mut sum = Sample::default();
+    for index in 0..count {
+        let mut sampler = Sampler::new(options.seed, number, index);
+        let [u, v] = sampler.pair();
+        // A single ray goes through the middle.
+        let [right, down] = if count == 1 {
+            [0.5; 2]
+        } else {
+            [0.5 + tent(u), 0.5 + tent(v)]
+        };
+        let direction = view.direction(x as f32 + right, y as f32 + down);
+        let sample = shader.radiance(view.eye, direction, &mut sampler);
+        sum.color += sample.color;
+        sum.albedo += sample.albedo;
+        sum.diffuse += sample.diffuse;
+    }
+    let share = 1.0 / count as f32;
+    Mean {
+        color: sum.color * share,
+        albedo: sum.albedo * share,
+        lighting: sum.diffuse / sum.albedo.max(Vec3A::splat(DARK)),
+        is_edge,
+    }
 }
 
 /// A tent of width two pixels: neighbouring pixels share their edge, as a good filter asks.

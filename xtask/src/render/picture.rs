@@ -3,21 +3,31 @@
 use std::io::{Seek, Write};
 
 use anyhow::Result;
+use glam::Vec3A;
 
 use super::exr;
 use crate::image::Image;
 
-/// One pixel with its data.
+/// What is seen in the middle of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Pixel {
-    pub(super) color: [f32; 4],
+pub(super) struct Seen {
+    /// Distance along the line of sight in world units.
     pub(super) depth: f32,
-    pub(super) normal: [f32; 3],
+    /// Unit normal on the viewer's side.
+    pub(super) normal: Vec3A,
+    /// Object number, 0 for the ground and the backdrop.
     pub(super) id: u32,
+    /// The vertices' number there.
     pub(super) scalar: f32,
+    /// The point in the unit ball's coordinates.
+    pub(super) point: Vec3A,
+    /// The colour of the surface.
+    pub(super) paint: Vec3A,
+    /// Whether other things are seen through it.
+    pub(super) is_clear: bool,
 }
 
-impl Pixel {
+impl Seen {
     /// The depth of a pixel that shows only the backdrop.
     pub(super) const FAR: f32 = 1e10;
 }
@@ -27,56 +37,71 @@ impl Pixel {
 pub struct Picture {
     width: u32,
     height: u32,
-    pixels: Vec<Pixel>,
+    colors: Vec<Vec3A>,
+    seen: Vec<Seen>,
     layer: Option<String>,
 }
 
 impl Picture {
     pub(super) const fn new(
-        width: u32,
-        height: u32,
-        pixels: Vec<Pixel>,
+        [width, height]: [u32; 2],
+        colors: Vec<Vec3A>,
+        seen: Vec<Seen>,
         layer: Option<String>,
     ) -> Self {
         Self {
             width,
             height,
-            pixels,
+            colors,
+            seen,
             layer,
         }
     }
 
-    /// Linear red, green, blue and alpha, row by row from the top.
+    /// Width and height in pixels.
+    #[must_use]
+    pub const fn size(&self) -> [u32; 2] {
+        [self.width, self.height]
+    }
+
+    /// Name of the layer of the vertices' numbers.
+    #[must_use]
+    pub fn layer_name(&self) -> Option<&str> {
+        self.layer.as_deref()
+    }
+
+    /// Linear red, green, blue and alpha (all of it opaque), row by row from the top.
     pub fn colors(&self) -> impl Iterator<Item = [f32; 4]> {
-        self.pixels.iter().map(|pixel| pixel.color)
+        self.colors
+            .iter()
+            .map(|color| [color.x, color.y, color.z, 1.0])
     }
 
     /// Object numbers, row by row from the top; 0 is the ground or the backdrop.
     pub fn ids(&self) -> impl Iterator<Item = u32> {
-        self.pixels.iter().map(|pixel| pixel.id)
+        self.seen.iter().map(|seen| seen.id)
     }
 
     /// Distances along the line of sight in world units; 1e10 for the backdrop.
     pub fn depths(&self) -> impl Iterator<Item = f32> {
-        self.pixels.iter().map(|pixel| pixel.depth)
+        self.seen.iter().map(|seen| seen.depth)
     }
 
     /// Unit normals on the viewer's side in world directions; zero for the backdrop.
     pub fn normals(&self) -> impl Iterator<Item = [f32; 3]> {
-        self.pixels.iter().map(|pixel| pixel.normal)
+        self.seen.iter().map(|seen| seen.normal.to_array())
     }
 
     /// The vertices' numbers, interpolated; 0 where there is none.
     pub fn scalars(&self) -> impl Iterator<Item = f32> {
-        self.pixels.iter().map(|pixel| pixel.scalar)
+        self.seen.iter().map(|seen| seen.scalar)
     }
 
     /// The picture for the screen.
     #[must_use]
     pub fn image(&self) -> Image {
-        let bytes = self.pixels.iter().flat_map(|pixel| {
-            let [r, g, b, _] = pixel.color;
-            let [r, g, b] = tone_map([r, g, b]).map(display);
+        let bytes = self.colors.iter().flat_map(|color| {
+            let [r, g, b] = tone_map(color.to_array()).map(display);
             [r, g, b, 255]
         });
         Image::new(self.width, self.height, bytes.collect())
@@ -88,13 +113,7 @@ impl Picture {
     /// # Errors
     /// Whatever the writer reports.
     pub fn write_exr(&self, writer: impl Write + Seek) -> Result<()> {
-        exr::write(
-            self.width,
-            self.height,
-            &self.pixels,
-            self.layer.as_deref(),
-            writer,
-        )
+        exr::write(self, writer)
     }
 }
 

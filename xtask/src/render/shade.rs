@@ -7,7 +7,7 @@ use glam::{Vec3A, vec3a};
 use super::accel::{Accel, Hit};
 use super::environment::{KEY, Studio, smoothstep};
 use super::material::{Finish, Material, Paint};
-use super::picture::Pixel;
+use super::picture::Seen;
 use super::sampler::Sampler;
 use super::scene::Scene;
 use crate::color::Color;
@@ -20,6 +20,26 @@ const MOST_SHELLS: usize = 16;
 const HEAD_ON: f32 = 0.04;
 /// Half the width of an isoline, in the unit ball's coordinates.
 const LINE: f32 = 0.0028;
+
+/// The light along one ray: all of it, and the diffuse part taken apart, whose noise the denoiser may
+/// smooth without touching colours and mirror images.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sample {
+    pub(super) color: Vec3A,
+    /// Share of diffuse light that surfaces on the ray send to the eye.
+    pub(super) albedo: Vec3A,
+    /// What of it they do send.
+    pub(super) diffuse: Vec3A,
+}
+
+impl Sample {
+    fn add(&mut self, passed: Vec3A, albedo: Vec3A, lighting: Vec3A, mirrored: Vec3A) {
+        let diffuse = passed * albedo * lighting;
+        self.color += diffuse + passed * mirrored;
+        self.albedo += passed * albedo;
+        self.diffuse += diffuse;
+    }
+}
 
 /// A surface point as the shader sees it.
 struct Surface {
@@ -75,16 +95,10 @@ impl<'a> Shader<'a> {
         }
     }
 
-    /// The data layers of the pixel whose centre is in `direction`.
-    pub(super) fn first_hit(
-        &self,
-        eye: Vec3A,
-        direction: Vec3A,
-        forward: Vec3A,
-        unit: f64,
-    ) -> Pixel {
-        let to_depth = f64::from(direction.dot(forward)) * unit;
+    /// What is seen in the middle of a pixel, in `direction`.
+    pub(super) fn seen(&self, eye: Vec3A, direction: Vec3A, forward: Vec3A, unit: f64) -> Seen {
         let ground = self.ground_distance(eye, direction);
+        let depth = |distance: f32| (f64::from(distance * direction.dot(forward)) * unit) as f32;
         match self.accel.trace(eye, direction, 0.0) {
             Some(hit) if ground.is_none_or(|distance| hit.distance <= distance) => {
                 let object = &self.objects[hit.object as usize];
@@ -94,33 +108,35 @@ impl<'a> Shader<'a> {
                 } else {
                     normal
                 };
-                Pixel {
-                    color: [0.0; 4],
-                    depth: (f64::from(hit.distance) * to_depth) as f32,
-                    normal: normal.to_array(),
+                Seen {
+                    depth: depth(hit.distance),
+                    normal,
                     id: hit.object + 1,
                     scalar: object.scalar(&hit).unwrap_or(0.0),
+                    point: eye + direction * hit.distance,
+                    paint: object.color(&hit, normal, direction),
+                    is_clear: object.material.finish == Finish::Glass,
                 }
             }
-            _ => Pixel {
-                color: [0.0; 4],
-                depth: ground.map_or(Pixel::FAR, |distance| {
-                    (f64::from(distance) * to_depth) as f32
-                }),
+            _ => Seen {
+                depth: ground.map_or(Seen::FAR, depth),
                 normal: if ground.is_some() {
-                    [0.0, 0.0, 1.0]
+                    Vec3A::Z
                 } else {
-                    [0.0; 3]
+                    Vec3A::ZERO
                 },
                 id: 0,
                 scalar: 0.0,
+                point: ground.map_or(Vec3A::ZERO, |distance| eye + direction * distance),
+                paint: Vec3A::ZERO,
+                is_clear: false,
             },
         }
     }
 
     /// Light along a ray from the eye.
-    pub(super) fn radiance(&self, eye: Vec3A, direction: Vec3A, sampler: &mut Sampler) -> Vec3A {
-        let mut light = Vec3A::ZERO;
+    pub(super) fn radiance(&self, eye: Vec3A, direction: Vec3A, sampler: &mut Sampler) -> Sample {
+        let mut sample = Sample::default();
         let mut passed = Vec3A::ONE;
         let mut nearest = 0.0;
         for _ in 0..MOST_SHELLS {
@@ -128,26 +144,27 @@ impl<'a> Shader<'a> {
             let hit = self.accel.trace(eye, direction, nearest);
             let hit = hit.filter(|hit| ground.is_none_or(|distance| hit.distance <= distance));
             let Some(hit) = hit else {
-                let backdrop = Studio::backdrop(direction);
-                let shade = ground.map_or(Vec3A::ONE, |distance| {
-                    self.ground_shade(eye + direction * distance, sampler)
+                let lighting = ground.map_or(Vec3A::ONE, |distance| {
+                    self.ground_lighting(eye + direction * distance, sampler)
                 });
-                return light + passed * backdrop * shade;
+                sample.add(passed, Studio::backdrop(direction), lighting, Vec3A::ZERO);
+                return sample;
             };
             let surface = self.surface(eye, direction, &hit);
+            let (albedo, lighting, mirrored) = self.shade(&surface, direction, sampler);
             if surface.finish != Finish::Glass {
-                return light + passed * self.shade(&surface, direction, sampler);
+                sample.add(passed, albedo, lighting, mirrored);
+                return sample;
             }
             // A thin shell: the longer the way through it, the less passes.
             let facing = surface.normal.dot(-direction).clamp(0.02, 1.0);
-            let opacity = 1.0 - (1.0 - 0.22_f32).powf(1.0 / facing);
-            let fresnel = fresnel(facing);
-            light += passed * self.shade(&surface, direction, sampler) * opacity.max(fresnel);
+            let opacity = (1.0 - (1.0 - 0.22_f32).powf(1.0 / facing)).max(fresnel(facing));
+            sample.add(passed * opacity, albedo, lighting, mirrored);
             let tint = Vec3A::ONE.lerp(surface.color, 0.35);
-            passed *= tint * (1.0 - opacity.max(fresnel));
+            passed *= tint * (1.0 - opacity);
             nearest = hit.distance + OFFSET;
         }
-        light
+        sample
     }
 
     fn ground_distance(&self, eye: Vec3A, direction: Vec3A) -> Option<f32> {
@@ -157,7 +174,7 @@ impl<'a> Shader<'a> {
     }
 
     /// How much light the ground gets, over what it would get if nothing stood on it.
-    fn ground_shade(&self, point: Vec3A, sampler: &mut Sampler) -> Vec3A {
+    fn ground_lighting(&self, point: Vec3A, sampler: &mut Sampler) -> Vec3A {
         let start = point + Vec3A::Z * OFFSET;
         let key = KEY * self.studio.key().z.max(0.1);
         let got = key * self.key_visibility(start, Vec3A::Z, sampler)
@@ -199,7 +216,13 @@ impl<'a> Shader<'a> {
         surface.color * (key + Studio::sky(surface.normal) * 0.6)
     }
 
-    fn shade(&self, surface: &Surface, direction: Vec3A, sampler: &mut Sampler) -> Vec3A {
+    /// The share of diffuse light that a surface sends on, that light, and what is mirrored.
+    fn shade(
+        &self,
+        surface: &Surface,
+        direction: Vec3A,
+        sampler: &mut Sampler,
+    ) -> (Vec3A, Vec3A, Vec3A) {
         let facing = surface.normal.dot(self.studio.key());
         let visible = if facing > 0.0 {
             self.key_visibility(surface.start, surface.plane, sampler)
@@ -207,27 +230,20 @@ impl<'a> Shader<'a> {
             0.0
         };
         let key = KEY * (facing.max(0.0) * visible);
-        let diffuse = surface.color * (key + self.sky(surface.start, surface.normal, sampler));
+        let lighting = key + self.sky(surface.start, surface.normal, sampler);
         if surface.finish == Finish::Matte {
-            return diffuse;
+            return (surface.color, lighting, Vec3A::ZERO);
         }
         let towards_eye = -direction;
         let share = fresnel(surface.normal.dot(towards_eye).clamp(0.0, 1.0));
-        let mirrored = self.mirrored(surface, direction, sampler);
         let glint = glint(surface.normal, towards_eye, self.studio.key()) * visible;
-        diffuse * (1.0 - share) + mirrored * share + KEY * glint
+        let mirrored = self.mirrored(surface, direction) * share + KEY * glint;
+        (surface.color * (1.0 - share), lighting, mirrored)
     }
 
     /// What a clear coat mirrors: the studio, or another surface.
-    fn mirrored(&self, surface: &Surface, direction: Vec3A, sampler: &mut Sampler) -> Vec3A {
-        let [u, v] = sampler.pair();
-        // A slightly rough coat: the mirrored direction is spread over a few degrees.
+    fn mirrored(&self, surface: &Surface, direction: Vec3A) -> Vec3A {
         let mirror = reflect(direction, surface.normal);
-        let spread = 0.06 * u.sqrt();
-        let (sin, cos) = (TAU * v).sin_cos();
-        let across = mirror.any_orthonormal_vector();
-        let mirror =
-            (mirror + across * (spread * cos) + mirror.cross(across) * (spread * sin)).normalize();
         if mirror.dot(surface.plane) <= 0.0 {
             return Studio::sky(mirror);
         }
