@@ -95,8 +95,7 @@ pub enum Degenerate {
 
 impl Quadratic<DVec2> {
     /// The conic that this curve is an arc of, with all its features. Weights may have any sign, and control mass points
-    /// may be vectors: the formulas have no case for them (G. Farin, *NURBS*, 2nd ed., Section 5; mass-point paper,
-    /// Section 2).
+    /// may be vectors: the formulas have no case for them.
     ///
     /// ```
     /// use bezier_mass::{Conic, MassPoint, Quadratic, glam::dvec2};

@@ -71,6 +71,15 @@ impl Biquadratic<DVec3> {
         Ok(points)
     }
 
+    /// [`Biquadratic::grid`] on all cores of rayon's pool, each with its share of the `us`. Pays for large grids.
+    ///
+    /// # Errors
+    /// As [`Biquadratic::grid`], though not always at the first grid point that has no position.
+    #[cfg(feature = "rayon")]
+    pub fn par_grid(&self, us: &[f64], vs: &[f64]) -> Result<Vec<SurfacePoint>, Error> {
+        in_shares(us, |share| self.grid(share, vs))
+    }
+
     /// The three rows at `v`.
     #[inline]
     fn rows_at(&self, v: f64) -> [RowAt; 3] {
@@ -133,6 +142,27 @@ impl BezierPatch<DVec3> {
         }
         Ok(points)
     }
+
+    /// [`BezierPatch::grid`] on all cores of rayon's pool, each with its share of the `us`. Pays for large grids.
+    ///
+    /// # Errors
+    /// As [`BezierPatch::grid`], though not always at the first grid point that has no position.
+    #[cfg(feature = "rayon")]
+    pub fn par_grid(&self, us: &[f64], vs: &[f64]) -> Result<Vec<SurfacePoint>, Error> {
+        in_shares(us, |share| self.grid(share, vs))
+    }
+}
+
+/// The points over every thread's share of the `us`, put together in order.
+#[cfg(feature = "rayon")]
+fn in_shares(
+    us: &[f64],
+    grid: impl Fn(&[f64]) -> Result<Vec<SurfacePoint>, Error> + Sync,
+) -> Result<Vec<SurfacePoint>, Error> {
+    use rayon::prelude::*;
+    let share = us.len().div_ceil(rayon::current_num_threads()).max(1);
+    let shares: Vec<_> = us.par_chunks(share).map(&grid).collect::<Result<_, _>>()?;
+    Ok(shares.concat())
 }
 
 /// The value and the derivative of a quadratic Bernstein polynomial.
@@ -226,6 +256,12 @@ mod tests {
                 );
             }
             assert!((values[i] - cap.at(u, v)).magnitude() < 1e-15);
+        }
+        #[cfg(feature = "rayon")]
+        {
+            assert_eq!(cap.par_grid(&us, &vs)?, grid);
+            assert_eq!(general.par_grid(&us, &vs)?, general_grid);
+            assert!(cap.par_grid(&[], &vs)?.is_empty());
         }
         Ok(())
     }

@@ -98,7 +98,7 @@ fn push_cubics(curve: &BezierCurve<DVec2>, accuracy: f64, path: &mut BezPath) ->
     // Parts still to do, the next one last.
     let mut parts = vec![(curve.clone(), 0)];
     while let Some((part, depth)) = parts.pop() {
-        let error = match hermite_cubic(&part) {
+        let error = match hermite_cubic(&balanced(&part)) {
             Some((cubic, error)) if error <= accuracy => {
                 let [_, p1, p2, p3] = cubic.map(to_kurbo);
                 path.curve_to(p1, p2, p3);
@@ -114,6 +114,20 @@ fn push_cubics(curve: &BezierCurve<DVec2>, accuracy: f64, path: &mut BezPath) ->
         parts.extend([(second, depth + 1), (first, depth + 1)]);
     }
     Ok(())
+}
+
+/// The same curve with end weights of equal size, by a homography: its parameter then runs as evenly as it can, and a
+/// cubic follows it better.
+fn balanced(curve: &BezierCurve<DVec2>) -> BezierCurve<DVec2> {
+    let [start, end] = [0.0, 1.0].map(|t| curve.at(t).weight.abs());
+    let ratio = (start / end).powf(1.0 / curve.degree().max(1) as f64);
+    let mut factor = 1.0 / ratio;
+    let control = curve.control().iter().map(|&h| {
+        factor *= ratio;
+        h * factor
+    });
+    // Finite because both end weights are, or the curve as it is.
+    BezierCurve::new(control.collect()).unwrap_or_else(|_| curve.clone())
 }
 
 /// The first parameter in `[0, 1]` near which the weight is not proven to keep its sign, to the resolution of 40 halvings.
