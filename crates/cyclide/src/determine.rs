@@ -82,6 +82,8 @@ impl Dupin {
             return Err(Error::NotDetermined { reason: "the tangent circles belong to different cyclides" });
         }
         let step = second.centre - first.centre;
+        // Concentric circles belong to a torus, whose x is free.
+        let step = if step.length() <= tolerance::EXACT_KIND * size { DVec3::ZERO } else { step };
         let (half_step, half_difference, mean) = (0.5 * step.length(), 0.5 * (other - one), 0.5 * (one + other));
         let centre = 0.5 * (first.centre + second.centre);
         let across = first.axis;

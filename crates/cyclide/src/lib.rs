@@ -4,6 +4,7 @@
 
 mod axes;
 mod blend;
+mod canal;
 mod circle;
 mod classify;
 mod cone;

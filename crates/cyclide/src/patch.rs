@@ -21,7 +21,7 @@ pub struct CyclidePatch {
 }
 
 /// The control coefficients of the three basis functions of one parameter: `(1, cos, sin)` or `(1, u, u²)` on one span.
-type Row = [f64; 3];
+pub(crate) type Row = [f64; 3];
 
 impl Dupin {
     /// The patch between two values of each parameter.
@@ -110,7 +110,7 @@ impl Dupin {
 }
 
 /// Controls of `(1, cos t, sin t)` over a span: the standard arc with end weights 1 and middle weight `cos(span/2)`.
-fn arc_rows([from, to]: [f64; 2]) -> Result<[Row; 3], Error> {
+pub(crate) fn arc_rows([from, to]: [f64; 2]) -> Result<[Row; 3], Error> {
     finite("patch bound", from)?;
     finite("patch bound", to)?;
     let half = 0.5 * (to - from);
@@ -123,7 +123,7 @@ fn arc_rows([from, to]: [f64; 2]) -> Result<[Row; 3], Error> {
 }
 
 /// Controls of `(1, u, u²)` over a span, by blossoming in homogeneous parameters.
-fn line_rows([from, to]: [f64; 2]) -> Result<[Row; 3], Error> {
+pub(crate) fn line_rows([from, to]: [f64; 2]) -> Result<[Row; 3], Error> {
     let homogeneous = |bound: f64| match bound {
         f64::INFINITY => (0.0, 1.0),
         f64::NEG_INFINITY => (0.0, -1.0),

@@ -106,8 +106,7 @@ impl Quartic {
         if reach < 0.0 {
             return Ok(RayHits::default());
         }
-        // A little beyond the sphere, so that no root sits at the end of the interval by rounding.
-        let half = reach.sqrt() + 1e-9 * radius;
+        let half = rounded_up(reach.sqrt() + 1e-9 * radius);
         let mut hits = RayHits::default();
         if self.a() == 0.0 {
             // The sphere counted twice: every intersection is double.
@@ -194,18 +193,27 @@ fn hit(root: &Root) -> RayHit {
     RayHit { s: root.value(), error: 0.5 * root.width(), multiplicity: root.multiplicity().unwrap_or(0) }
 }
 
-/// Bernstein coefficients on `[-half, half]` of a polynomial in ascending powers: the blossom at the ends.
+/// The next number with eight bits, so that data with few digits keep exact coefficients and a tangent line its double root. It is a little
+/// beyond, and no root sits at the end of the interval by rounding.
+fn rounded_up(half: f64) -> f64 {
+    let unit = 2_f64.powi(half.log2().floor() as i32 - 7);
+    if unit > 0.0 { (half / unit).ceil() * unit } else { half }
+}
+
+/// Three times the Bernstein coefficients on `[-half, half]` of a polynomial in ascending powers: the blossom at the ends, and nothing is
+/// divided by three.
 fn bernstein_from_monomial_quartic([c0, c1, c2, c3, c4]: [f64; 5], half: f64) -> [f64; 5] {
     let square = half * half;
     let (c1, c2, c3, c4) = (c1 * half, c2 * square, c3 * square * half, c4 * square * square);
     let (even, odd) = (c0 + c2 + c4, c1 + c3);
     let (inner_even, inner_odd) = (c0 - c4, 0.5 * (c1 - c3));
-    [even - odd, inner_even - inner_odd, c0 - c2 / 3.0 + c4, inner_even + inner_odd, even + odd]
+    let middle = 3.0 * (c0 + c4) - c2;
+    [3.0 * (even - odd), 3.0 * (inner_even - inner_odd), middle, 3.0 * (inner_even + inner_odd), 3.0 * (even + odd)]
 }
 
 /// The same for a cubic on `[-1, 1]`.
 fn bernstein_from_monomial_cubic([c0, c1, c2, c3]: [f64; 4]) -> [f64; 4] {
-    let (even, odd) = (c0 + c2, c1 + c3);
-    let (inner_even, inner_odd) = (c0 - c2 / 3.0, c1 / 3.0 - c3);
+    let (even, odd) = (3.0 * (c0 + c2), 3.0 * (c1 + c3));
+    let (inner_even, inner_odd) = (3.0 * c0 - c2, c1 - 3.0 * c3);
     [even - odd, inner_even - inner_odd, inner_even + inner_odd, even + odd]
 }

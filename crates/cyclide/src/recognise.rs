@@ -115,27 +115,27 @@ pub fn inspect(net: &Biquadratic<DVec3>) -> Result<NetReport, Error> {
 
     let fourth = fourth_corner_weight(&points);
     let root = weights[2][2].abs().sqrt();
-    let [row, column, far_row, far_column] = edge_cosines(&points);
-    // A net stores one of the four complementary patches: opposite edges have one sign.
-    let edge = |near: f64, near_cosine: f64, far: f64, far_cosine: f64| {
-        let with_sign = |sign: f64| (near - sign * near_cosine).abs().max((far - sign * root * far_cosine).abs());
-        with_sign(1.0).min(with_sign(-1.0))
-    };
-    let edge_weights = edge(weights[0][1], row, weights[2][1], far_row).max(edge(weights[1][0], column, weights[1][2], far_column));
-    let central = central_weight(&points, weights[0][1], weights[1][0]);
+    let cosines = edge_cosines(&points);
+    let given = [weights[0][1], weights[1][0], weights[2][1], weights[1][2]];
+    let edge_weights = [0, 1, 2, 3].map(|edge| (given[edge].abs() - cosines[edge] * if edge < 2 { 1.0 } else { root }).abs());
+    // The signs of the edges agree with each other if all corners give the same central weight.
+    let central_weight = CORNERS.map(|corner| {
+        let central = central_weight(&points, &weights, corner);
+        (weights[1][1] - central).abs() / central.abs().max(1.0)
+    });
     Ok(NetReport {
         concyclic_corners,
         equal_edges,
         right_angles,
         corner_planes,
         fourth_corner_weight: (weights[2][2] - fourth).abs() / fourth.max(1.0),
-        edge_weights,
-        central_weight: (weights[1][1] - central).abs() / central.abs().max(1.0),
+        edge_weights: worst(edge_weights),
+        central_weight: worst(central_weight),
     })
 }
 
 /// The net of the cyclide patch with these control points: weights solved, with `w00 = w02 = w20 = 1` and the shorter arc on
-/// every edge (the three complementary patches have the opposite sign on opposite edges).
+/// the edges of corner 00 (the three complementary patches have the opposite sign on opposite edges).
 ///
 /// # Errors
 ///
@@ -158,16 +158,20 @@ pub fn solve_weights(points: &[[DVec3; 3]; 3]) -> Result<Biquadratic<DVec3>, Err
     let fourth = finite("weight w22", fourth_corner_weight(points))?;
     let root = fourth.sqrt();
     let [row, column, far_row, far_column] = edge_cosines(points);
-    let weights = [
-        [1.0, row, 1.0],
-        [column, finite("weight w11", central_weight(points, row, column))?, root * far_column],
-        [1.0, root * far_row, fourth],
-    ];
+    let mut weights = [[1.0, row, 1.0], [column, 0.0, root * far_column], [1.0, root * far_row, fourth]];
+    weights[1][1] = finite("weight w11", central_weight(points, &weights, (0, 0)))?;
+    // On a patch of nearly half a turn one edge can be a longer arc where the opposite one is a shorter: the corners must agree on w11.
+    if central_weight(points, &weights, (0, 2)) * weights[1][1] < 0.0 {
+        weights[1][2] = -weights[1][2];
+    }
+    if central_weight(points, &weights, (2, 0)) * weights[1][1] < 0.0 {
+        weights[2][1] = -weights[2][1];
+    }
     let control = [0, 1, 2].map(|i| [0, 1, 2].map(|j| MassPoint::point(points[i][j], weights[i][j])));
     Ok(Biquadratic::new(control)?)
 }
 
-/// The middle weight of a circular arc with end weights 1: the cosine of the angle between tangent and chord.
+/// The middle weight of the shorter circular arc with end weights 1: the cosine of the angle between tangent and chord.
 fn arc_weight([start, middle, end]: [DVec3; 3]) -> f64 {
     (middle - start).dot(end - start) / ((middle - start).length() * (end - start).length())
 }
@@ -183,14 +187,17 @@ fn fourth_corner_weight(points: &[[DVec3; 3]; 3]) -> f64 {
     (points[0][2] - points[2][0]).length_squared() / (points[0][0] - points[2][2]).length_squared()
 }
 
-/// `w11` from the affine coordinates of `P11` in the tangent plane of corner 00. The bisector condition of the paper is empty for
-/// every torus and for symmetric patches; this local one is not.
-fn central_weight(points: &[[DVec3; 3]; 3], row: f64, column: f64) -> f64 {
-    let corner = points[0][0];
-    let (along_row, along_column, central) = (points[0][1] - corner, points[1][0] - corner, points[1][1] - corner);
+/// Rows and columns of the corners.
+const CORNERS: [(usize, usize); 4] = [(0, 0), (0, 2), (2, 0), (2, 2)];
+
+/// `w11` from the affine coordinates of `P11` in the tangent plane of a corner and the weights there. The bisector condition of the paper is
+/// empty for every torus and for symmetric patches; this local one is not.
+fn central_weight(points: &[[DVec3; 3]; 3], weights: &[[f64; 3]; 3], (i, j): (usize, usize)) -> f64 {
+    let corner = points[i][j];
+    let (along_row, along_column, central) = (points[i][1] - corner, points[1][j] - corner, points[1][1] - corner);
     let lambda = central.dot(along_row) / along_row.length_squared();
     let nu = central.dot(along_column) / along_column.length_squared();
-    row * column * (lambda + nu - 1.0) / (lambda * nu)
+    weights[i][1] * weights[1][j] * (lambda + nu - 1.0) / (weights[i][j] * lambda * nu)
 }
 
 /// Residuals of PG1 to PG4.
@@ -201,7 +208,7 @@ fn geometric_residuals(points: &[[DVec3; 3]; 3]) -> [f64; 4] {
     let column = |j: usize| [points[0][j], points[1][j], points[2][j]];
     let edges = [points[0], points[2], column(0), column(2)];
     let equal_edges = worst(edges.map(|[start, middle, end]| (start.distance(middle) - middle.distance(end)).abs() / size));
-    let corners = [(0, 0), (0, 2), (2, 0), (2, 2)].map(|(i, j)| {
+    let corners = CORNERS.map(|(i, j)| {
         let corner = points[i][j];
         (points[i][1] - corner, points[1][j] - corner, points[1][1] - corner)
     });
