@@ -148,7 +148,8 @@ fn rays_meet_the_points_they_were_aimed_at() {
 fn rays_that_touch_or_pass_singular_points_count_them_twice() {
     let torus = Dupin::torus(3.0, 1.0, Frame::WORLD).unwrap();
     let hits = torus.intersect(DVec3::new(-9.0, 0.0, 1.0), DVec3::X).unwrap();
-    assert_eq!(hits.iter().map(|hit| (hit.s, hit.multiplicity)).collect::<Vec<_>>(), [(6.0, 2), (12.0, 2)]);
+    assert!(hits.len() == 2 && hits.iter().all(|hit| hit.multiplicity == 2), "{hits:?}");
+    assert!((hits[0].s - 6.0).abs() < 1e-10 && (hits[1].s - 12.0).abs() < 1e-10, "{hits:?}");
     let horned = Dupin::quartic(3.0, 1.0, 1.0, Frame::WORLD).unwrap();
     let hits = horned.intersect(DVec3::new(3.0, 0.0, -5.0), DVec3::Z).unwrap();
     assert!(hits.iter().any(|hit| (hit.s - 5.0).abs() < 1e-6), "{hits:?}");
