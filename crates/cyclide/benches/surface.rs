@@ -2,7 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "the data of a bench are known to be good")]
 
 use cyclide::glam::DVec3;
-use cyclide::{Dupin, Frame, convert, convert_torus, inspect};
+use cyclide::{Dupin, Frame, RayCaster, convert, convert_torus, inspect};
 use divan::{Bencher, black_box, counter::ItemsCount};
 
 fn main() {
@@ -55,7 +55,8 @@ fn rays(bencher: Bencher<'_, '_>, count: usize) {
         })
         .collect();
     bencher.counter(ItemsCount::new(count)).bench(|| {
-        rays.iter().filter_map(|&(origin, direction)| ring.intersect(origin, direction).ok()).map(|hits| hits.len()).sum::<usize>()
+        let mut caster = RayCaster::new(ring);
+        rays.iter().filter_map(|&(origin, direction)| caster.intersect(origin, direction).ok()).map(|hits| hits.len()).sum::<usize>()
     });
 }
 

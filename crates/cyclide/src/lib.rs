@@ -54,7 +54,7 @@ pub use ring::RingPreference;
 pub use section::Section;
 pub use torus_patch::convert_torus;
 pub use tube::Tube;
-pub use ray::{RayHit, RayHits};
+pub use ray::{RayCaster, RayHit, RayHits};
 pub use recognise::{Condition, NetReport, inspect, solve_weights};
 
 pub use glam; // its types appear in our signatures

@@ -4,7 +4,7 @@ use crate::frame::finite_vector;
 use crate::{Dupin, Error, Parabolic, Quartic};
 use glam::DVec3;
 use std::ops::Deref;
-use variation::{Interval, Root};
+use variation::{Interval, Root, Solver};
 
 /// A point of a surface on a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -49,11 +49,68 @@ impl RayHits {
     }
 }
 
+/// Intersects one surface with many lines, keeping the root finder's storage.
+///
+/// ```
+/// use cyclide::{Dupin, Frame, RayCaster, glam::DVec3};
+/// let mut caster = RayCaster::new(Dupin::torus(3.0, 1.0, Frame::WORLD)?);
+/// let hits: usize = (0..100)
+///     .map(|i| caster.intersect(DVec3::new(-9.0, 0.08 * f64::from(i) - 4.0, 0.1), DVec3::X).map_or(0, |hits| hits.len()))
+///     .sum();
+/// assert_eq!(hits, 300); // 49 lines through the hole meet the torus four times, 51 twice, two pass by
+/// # Ok::<(), cyclide::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct RayCaster {
+    surface: Dupin,
+    solver: Solver,
+}
+
+impl RayCaster {
+    /// A caster for one surface.
+    #[must_use]
+    pub const fn new(surface: Dupin) -> Self {
+        Self { surface, solver: Solver::new() }
+    }
+
+    /// The surface.
+    #[must_use]
+    pub const fn surface(&self) -> &Dupin {
+        &self.surface
+    }
+
+    /// As [`Dupin::intersect`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Dupin::intersect`].
+    pub fn intersect(&mut self, origin: DVec3, direction: DVec3) -> Result<RayHits, Error> {
+        finite_vector("ray origin", origin)?;
+        finite_vector("ray direction", direction)?;
+        let length = direction.length();
+        if !(length > 0.0 && length.is_finite()) {
+            return Err(Error::Direction);
+        }
+        let frame = self.surface.frame();
+        let (origin, direction) = (frame.point_to_local(origin), frame.vector_to_local(direction) / length);
+        let mut hits = match &self.surface {
+            Dupin::Quartic(surface) => surface.intersect_local(&mut self.solver, origin, direction)?,
+            Dupin::Parabolic(surface) => surface.intersect_local(&mut self.solver, origin, direction)?,
+        };
+        for hit in &mut hits.hits {
+            hit.s /= length;
+            hit.error /= length;
+        }
+        Ok(hits)
+    }
+}
+
 impl Dupin {
     /// All intersections with the line `origin + s * direction`, for `s` of either sign, ascending. The direction need not be a unit vector.
     ///
     /// The polynomial of degree 4 (3 on a parabolic cyclide) along the line is formed about the point of the line nearest to the surface's
-    /// centre and handed to the certified root finder of the crate `variation`: no real root of it is missed, tangency included.
+    /// centre and handed to the certified root finder of the crate `variation`: no real root of it is missed, tangency included. For many
+    /// lines keep a [`RayCaster`].
     ///
     /// # Errors
     ///
@@ -70,23 +127,7 @@ impl Dupin {
     /// # Ok::<(), cyclide::Error>(())
     /// ```
     pub fn intersect(&self, origin: DVec3, direction: DVec3) -> Result<RayHits, Error> {
-        finite_vector("ray origin", origin)?;
-        finite_vector("ray direction", direction)?;
-        let length = direction.length();
-        if !(length > 0.0 && length.is_finite()) {
-            return Err(Error::Direction);
-        }
-        let frame = self.frame();
-        let (origin, direction) = (frame.point_to_local(origin), frame.vector_to_local(direction) / length);
-        let mut hits = match self {
-            Self::Quartic(surface) => surface.intersect_local(origin, direction)?,
-            Self::Parabolic(surface) => surface.intersect_local(origin, direction)?,
-        };
-        for hit in &mut hits.hits {
-            hit.s /= length;
-            hit.error /= length;
-        }
-        Ok(hits)
+        RayCaster::new(*self).intersect(origin, direction)
     }
 }
 
@@ -96,7 +137,7 @@ impl Quartic {
         (self.a() + self.mu()).max(self.a() + 2.0 * self.c() - self.mu())
     }
 
-    fn intersect_local(&self, origin: DVec3, direction: DVec3) -> Result<RayHits, Error> {
+    fn intersect_local(&self, solver: &mut Solver, origin: DVec3, direction: DVec3) -> Result<RayHits, Error> {
         let centre = DVec3::new(-self.c(), 0.0, 0.0);
         let start = (centre - origin).dot(direction);
         let nearest = origin + start * direction;
@@ -119,7 +160,7 @@ impl Quartic {
         }
         let coefficients = bernstein_from_monomial_quartic(self.along(nearest, direction), half);
         let interval = Interval::try_new(start - half, start + half)?;
-        for root in &variation::roots_on(&coefficients, interval)? {
+        for root in solver.roots_on(&coefficients, interval)? {
             hits.push(hit(root));
         }
         Ok(hits)
@@ -143,7 +184,7 @@ impl Quartic {
 }
 
 impl Parabolic {
-    fn intersect_local(&self, origin: DVec3, direction: DVec3) -> Result<RayHits, Error> {
+    fn intersect_local(&self, solver: &mut Solver, origin: DVec3, direction: DVec3) -> Result<RayHits, Error> {
         let start = -origin.dot(direction);
         let p = origin + start * direction;
         let size = self.f() + self.k().abs() + p.length();
@@ -159,19 +200,23 @@ impl Parabolic {
         let inside = bernstein_from_monomial_cubic(power);
         let outside = bernstein_from_monomial_cubic(reversed);
         let whole = Interval::try_new(-1.0, 1.0)?;
-        let far = variation::roots_on(&outside, whole)?;
-        let far_hit = |root: &Root| {
+        let mut far = [RayHit::default(); 3];
+        let mut far_len = 0;
+        for (slot, root) in far.iter_mut().zip(solver.roots_on(&outside, whole)?.iter().filter(|root| root.value().abs() < 1.0 && root.value() != 0.0)) {
             let s = 1.0 / root.value();
-            hit_at(root, s, s * s)
-        };
-        for root in far.iter().rev().filter(|root| -1.0 < root.value() && root.value() < 0.0) {
-            hits.push(far_hit(root));
+            *slot = hit_at(root, s, s * s);
+            far_len += 1;
         }
-        for root in &variation::roots_on(&inside, whole)? {
+        // As the reciprocal grows from -1 to 1 the parameter falls from -1 and, beyond infinity, to 1.
+        let far = far.get(..far_len).unwrap_or_default();
+        for hit in far.iter().rev().filter(|hit| hit.s < start) {
+            hits.push(*hit);
+        }
+        for root in solver.roots_on(&inside, whole)? {
             hits.push(hit_at(root, root.value(), 1.0));
         }
-        for root in far.iter().rev().filter(|root| 0.0 < root.value() && root.value() < 1.0) {
-            hits.push(far_hit(root));
+        for hit in far.iter().rev().filter(|hit| hit.s > start) {
+            hits.push(*hit);
         }
         Ok(hits)
     }
