@@ -57,7 +57,7 @@ impl RayHits {
 /// let hits: usize = (0..100)
 ///     .map(|i| caster.intersect(DVec3::new(-9.0, 0.08 * f64::from(i) - 4.0, 0.1), DVec3::X).map_or(0, |hits| hits.len()))
 ///     .sum();
-/// assert_eq!(hits, 300); // 49 lines through the hole meet the torus four times, 51 twice, two pass by
+/// assert_eq!(hits, 300); // 51 lines meet the torus four times, 48 twice, one passes by
 /// # Ok::<(), cyclide::Error>(())
 /// ```
 #[derive(Clone, Debug)]

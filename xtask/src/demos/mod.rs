@@ -57,7 +57,7 @@
 
 mod cone;
 
-// mod cone_blend;
+mod cone_blend;
 
 mod cyclide_to_cone;
 
@@ -111,7 +111,7 @@ pub fn all() -> Vec<Entry> {
 
         // entry::<caustics::Caustics>(),
         entry::<cone::Cone>(),
-        // entry::<cone_blend::ConeBlend>(),
+        entry::<cone_blend::ConeBlend>(),
         entry::<cyclide_to_cone::CyclideToCone>(),
         // entry::<cyclide_zoo::CyclideZoo>(),
 
