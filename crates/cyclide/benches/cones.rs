@@ -1,5 +1,8 @@
 //! Classification and blending of two cones.
-#![expect(clippy::unwrap_used, reason = "the data of a bench are known to be good")]
+#![expect(
+    clippy::unwrap_used,
+    reason = "the data of a bench are known to be good"
+)]
 
 use cyclide::glam::DVec3;
 use cyclide::{Cone, RingPreference, classify};
@@ -13,7 +16,10 @@ fn main() {
 fn pair() -> [Cone; 2] {
     let axis = DVec3::new(0.3, 0.95, 0.0).normalize();
     let vertex = -axis / 0.4_f64.sin();
-    [Cone::cylinder(DVec3::ZERO, DVec3::X, 1.0).unwrap(), Cone::new(vertex, axis, 0.4).unwrap()]
+    [
+        Cone::cylinder(DVec3::ZERO, DVec3::X, 1.0).unwrap(),
+        Cone::new(vertex, axis, 0.4).unwrap(),
+    ]
 }
 
 #[divan::bench]
@@ -32,13 +38,18 @@ fn one_blend(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn ring_blend_from_the_cones(bencher: Bencher<'_, '_>) {
     let [first, second] = pair();
-    bencher.bench(|| classify(black_box(&first), black_box(&second)).families()[0].ring_blend(RingPreference::Widest));
+    bencher.bench(|| {
+        classify(black_box(&first), black_box(&second)).families()[0]
+            .ring_blend(RingPreference::Widest)
+    });
 }
 
 #[divan::bench]
 fn patches_of_a_tube(bencher: Bencher<'_, '_>) {
     let [first, second] = pair();
-    let blend = classify(&first, &second).families()[0].ring_blend(RingPreference::Widest).unwrap();
+    let blend = classify(&first, &second).families()[0]
+        .ring_blend(RingPreference::Widest)
+        .unwrap();
     let tube = blend.tubes().unwrap()[0];
     bencher.bench(|| tube.patches());
 }

@@ -1,5 +1,8 @@
 //! Points, parameters, distances, rays and patches of one surface.
-#![expect(clippy::unwrap_used, reason = "the data of a bench are known to be good")]
+#![expect(
+    clippy::unwrap_used,
+    reason = "the data of a bench are known to be good"
+)]
 
 use cyclide::glam::DVec3;
 use cyclide::{Dupin, Frame, RayCaster, convert, convert_torus, inspect};
@@ -44,7 +47,9 @@ fn rays(bencher: Bencher<'_, '_>, count: usize) {
     let ring = ring();
     let mut state = 1_u64;
     let mut unit = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
     };
     let rays: Vec<(DVec3, DVec3)> = (0..count)
@@ -56,7 +61,10 @@ fn rays(bencher: Bencher<'_, '_>, count: usize) {
         .collect();
     bencher.counter(ItemsCount::new(count)).bench(|| {
         let mut caster = RayCaster::new(ring);
-        rays.iter().filter_map(|&(origin, direction)| caster.intersect(origin, direction).ok()).map(|hits| hits.len()).sum::<usize>()
+        rays.iter()
+            .filter_map(|&(origin, direction)| caster.intersect(origin, direction).ok())
+            .map(|hits| hits.len())
+            .sum::<usize>()
     });
 }
 
@@ -81,6 +89,10 @@ fn conversion(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn conversion_of_a_torus_by_algorithm_1(bencher: Bencher<'_, '_>) {
     let torus = Dupin::torus(3.0, 1.0, Frame::WORLD).unwrap();
-    let net = torus.patch([0.3, 1.7], [0.4, 1.9]).unwrap().net().transposed();
+    let net = torus
+        .patch([0.3, 1.7], [0.4, 1.9])
+        .unwrap()
+        .net()
+        .transposed();
     bencher.bench(|| convert_torus(black_box(&net), None));
 }

@@ -56,14 +56,23 @@ impl Dupin {
         Ok(match self {
             Self::Quartic(surface) => {
                 let first = surface.theta_axis();
-                let second = surface.psi_axis().map(|axis| Line::new(axis.direction, axis.point)).transpose()?;
+                let second = surface
+                    .psi_axis()
+                    .map(|axis| Line::new(axis.direction, axis.point))
+                    .transpose()?;
                 [Some(Line::new(first.direction, first.point)?), second]
             }
             Self::Parabolic(surface) => {
                 let (f, k) = (surface.f(), surface.k());
                 [
-                    Some(Line::new(frame.z(), frame.point_to_world(DVec3::X * (f - k)))?),
-                    Some(Line::new(frame.y(), frame.point_to_world(DVec3::X * (-f - k)))?),
+                    Some(Line::new(
+                        frame.z(),
+                        frame.point_to_world(DVec3::X * (f - k)),
+                    )?),
+                    Some(Line::new(
+                        frame.y(),
+                        frame.point_to_world(DVec3::X * (-f - k)),
+                    )?),
                 ]
             }
         })
@@ -75,7 +84,10 @@ impl Dupin {
     pub fn centres_of_similitude(&self) -> [Option<DVec3>; 2] {
         let frame = self.frame();
         match self {
-            Self::Quartic(surface) => [Some(surface.theta_axis().point), surface.psi_axis().map(|axis| axis.point)],
+            Self::Quartic(surface) => [
+                Some(surface.theta_axis().point),
+                surface.psi_axis().map(|axis| axis.point),
+            ],
             Self::Parabolic(surface) => [surface.f() - surface.k(), -surface.f() - surface.k()]
                 .map(|x| Some(frame.point_to_world(DVec3::X * x))),
         }
@@ -88,7 +100,10 @@ impl Dupin {
     /// [`Error::Lorentz`] only where a coordinate overflows.
     pub fn symmetry_planes(&self) -> Result<[Plane; 2], Error> {
         let frame = self.frame();
-        Ok([Plane::new(frame.z(), frame.origin())?, Plane::new(frame.y(), frame.origin())?])
+        Ok([
+            Plane::new(frame.z(), frame.origin())?,
+            Plane::new(frame.y(), frame.origin())?,
+        ])
     }
 
     /// The cone (or cylinder) of revolution that touches the surface along the circle with a constant first parameter. `None` where the
@@ -125,10 +140,15 @@ fn tangent_cone(moving: MovingSphere) -> Option<Cone> {
 /// circles meet. `None` if the circles lie on no common sphere.
 #[must_use]
 pub fn common_sphere(first: &CurvatureCircle, second: &CurvatureCircle) -> Option<Object> {
-    let size = first.radius.max(second.radius).max(first.centre.distance(second.centre));
+    let size = first
+        .radius
+        .max(second.radius)
+        .max(first.centre.distance(second.centre));
     let offset = second.centre - first.centre;
     let cross = first.axis.cross(second.axis);
-    let agree = |one: f64, other: f64| (one - other).abs() <= crate::tolerance::CLASS * one.abs().max(size * size);
+    let agree = |one: f64, other: f64| {
+        (one - other).abs() <= crate::tolerance::CLASS * one.abs().max(size * size)
+    };
     if cross.length() <= crate::tolerance::CLASS {
         let height = offset.dot(first.axis);
         if height.abs() <= crate::tolerance::CLASS * size {
@@ -138,14 +158,19 @@ pub fn common_sphere(first: &CurvatureCircle, second: &CurvatureCircle) -> Optio
             return None;
         }
         // Coaxial circles in parallel planes.
-        let along = (height * height + second.radius * second.radius - first.radius * first.radius) / (2.0 * height);
-        return Sphere::new(first.centre + along * first.axis, along.hypot(first.radius)).ok().map(Object::Sphere);
+        let along = (height * height + second.radius * second.radius - first.radius * first.radius)
+            / (2.0 * height);
+        return Sphere::new(first.centre + along * first.axis, along.hypot(first.radius))
+            .ok()
+            .map(Object::Sphere);
     }
     let along = offset.cross(second.axis).dot(cross) / cross.length_squared();
     let centre = first.centre + along * first.axis;
     let square = along * along + first.radius * first.radius;
     let other = centre.distance_squared(second.centre) + second.radius * second.radius;
-    agree(square, other).then(|| Sphere::new(centre, square.sqrt()).ok().map(Object::Sphere)).flatten()
+    agree(square, other)
+        .then(|| Sphere::new(centre, square.sqrt()).ok().map(Object::Sphere))
+        .flatten()
 }
 
 impl Cone {

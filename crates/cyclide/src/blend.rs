@@ -1,9 +1,11 @@
 //! One blend: the cyclide that touches two cones at a given member of a family.
 
-use crate::family::{Conic, Structure};
 use crate::determine::parabolic_from_vertex;
+use crate::family::{Conic, Structure};
 use crate::spheres::MovingSphere;
-use crate::{Cone, CurvatureCircle, Dupin, Error, Family, Frame, Kind, Quartic, SphereLine, tolerance};
+use crate::{
+    Cone, CurvatureCircle, Dupin, Error, Family, Frame, Kind, Quartic, SphereLine, tolerance,
+};
 use glam::DVec3;
 use lorentz::Cycle;
 use std::f64::consts::{PI, TAU};
@@ -88,7 +90,11 @@ impl Blend {
     /// Shene's point `X` on the diagonal; `None` at infinity and for cones on one axis.
     #[must_use]
     pub fn diagonal_point(&self) -> Option<DVec3> {
-        if self.family.one_axis { None } else { self.family.diagonal_point_of(self.parameter).position() }
+        if self.family.one_axis {
+            None
+        } else {
+            self.family.diagonal_point_of(self.parameter).position()
+        }
     }
 
     /// The larger of the two G1 residuals: how far, relative to the contact sphere and its distance from the vertex, each contact sphere and the
@@ -104,7 +110,10 @@ impl Blend {
         match (self.contact_family, self.kind()) {
             (ContactFamily::Theta, kind) => !matches!(
                 kind,
-                Kind::OneSingularitySpindle | Kind::TwoSingularitySpindle | Kind::HornTorus | Kind::SpindleTorus
+                Kind::OneSingularitySpindle
+                    | Kind::TwoSingularitySpindle
+                    | Kind::HornTorus
+                    | Kind::SpindleTorus
             ),
             (ContactFamily::Psi, kind) => !matches!(kind, Kind::SinglyHorned | Kind::DoublyHorned),
             (ContactFamily::U, kind) => kind == Kind::ParabolicRing,
@@ -131,8 +140,13 @@ impl Blend {
     #[must_use]
     pub fn principal_circles(&self) -> [Option<CurvatureCircle>; 2] {
         match (&self.surface, self.contact_family) {
-            (Dupin::Quartic(surface), ContactFamily::Theta) => [Some(surface.psi_circle(0.0)), Some(surface.psi_circle(PI))],
-            (Dupin::Quartic(surface), _) => [Some(surface.theta_circle(0.0)), Some(surface.theta_circle(PI))],
+            (Dupin::Quartic(surface), ContactFamily::Theta) => {
+                [Some(surface.psi_circle(0.0)), Some(surface.psi_circle(PI))]
+            }
+            (Dupin::Quartic(surface), _) => [
+                Some(surface.theta_circle(0.0)),
+                Some(surface.theta_circle(PI)),
+            ],
             (Dupin::Parabolic(surface), ContactFamily::U) => [Some(surface.v_circle(0.0)), None],
             (Dupin::Parabolic(surface), _) => [Some(surface.u_circle(0.0)), None],
         }
@@ -153,12 +167,19 @@ impl Blend {
                     ContactFamily::U => (contact.parameter, (PI * (turn - 0.5)).tan()),
                     ContactFamily::V => ((PI * (turn - 0.5)).tan(), contact.parameter),
                 };
-                let (point, normal) = (self.surface.point(first, second), self.surface.normal(first, second));
+                let (point, normal) = (
+                    self.surface.point(first, second),
+                    self.surface.normal(first, second),
+                );
                 let offset = point - line.point;
-                let outward = (offset - offset.dot(line.axis) * line.axis).normalize_or_zero() * radius.signum();
+                let outward = (offset - offset.dot(line.axis) * line.axis).normalize_or_zero()
+                    * radius.signum();
                 let cone_normal = line.cos * outward - line.sin * line.axis;
                 let distance = (offset.dot(cone_normal) - line.radius).abs() / radius.abs();
-                let angle = cone_normal.cross(normal).length().atan2(cone_normal.dot(normal).abs());
+                let angle = cone_normal
+                    .cross(normal)
+                    .length()
+                    .atan2(cone_normal.dot(normal).abs());
                 worst = (worst.0.max(distance), worst.1.max(angle));
             }
         }
@@ -170,17 +191,40 @@ impl Blend {
 pub(crate) fn member(family: &Family, parameter: f64) -> Result<Blend, Error> {
     let spheres = family.contact_spheres(parameter);
     let (surface, contact_family) = match (family.structure, family.conic) {
-        (Structure::Meet { sphere, pairing, .. }, Conic::Parabola) => cubic(family, sphere, f64::from(pairing), parameter)?,
-        (Structure::Meet { sphere, pairing, product }, conic) => {
+        (
+            Structure::Meet {
+                sphere, pairing, ..
+            },
+            Conic::Parabola,
+        ) => cubic(family, sphere, f64::from(pairing), parameter)?,
+        (
+            Structure::Meet {
+                sphere,
+                pairing,
+                product,
+            },
+            conic,
+        ) => {
             let pairing = f64::from(pairing);
             let directions = family.lines.map(|line| line.direction());
-            let mean = sphere + (directions[0] + directions[1] * pairing) * (parameter / (1.0 + pairing * product));
-            let b = parameter.abs() * ((1.0 - pairing * product) / (1.0 + pairing * product)).abs().sqrt();
+            let mean = sphere
+                + (directions[0] + directions[1] * pairing)
+                    * (parameter / (1.0 + pairing * product));
+            let b = parameter.abs()
+                * ((1.0 - pairing * product) / (1.0 + pairing * product))
+                    .abs()
+                    .sqrt();
             quartic(family, conic, mean, b, directions)?
         }
         (Structure::Parallel { step, square }, conic) => {
             let mean = (spheres[0] + spheres[1]) * 0.5;
-            quartic(family, conic, mean, square.abs().sqrt() / 2.0, [family.lines[0].direction(), step])?
+            quartic(
+                family,
+                conic,
+                mean,
+                square.abs().sqrt() / 2.0,
+                [family.lines[0].direction(), step],
+            )?
         }
     };
     let mut residual = 0.0_f64;
@@ -188,14 +232,31 @@ pub(crate) fn member(family: &Family, parameter: f64) -> Result<Blend, Error> {
         let parameter = contact_parameter(&surface.dupin, contact_family, sphere, surface.reversed);
         let moving = moving_sphere(&surface.dupin, contact_family, parameter);
         *residual = residual.max(tangency_residual(moving, sphere, line));
-        Contact { circle: line.contact_circle(sphere), sphere, parameter }
+        Contact {
+            circle: line.contact_circle(sphere),
+            sphere,
+            parameter,
+        }
     };
     let [first, second] = &family.lines;
-    let contacts = [contact(spheres[0], first, &mut residual), contact(spheres[1], second, &mut residual)];
+    let contacts = [
+        contact(spheres[0], first, &mut residual),
+        contact(spheres[1], second, &mut residual),
+    ];
     if !(residual <= tolerance::BLEND) {
-        return Err(Error::NotTangent { residual, allowed: tolerance::BLEND });
+        return Err(Error::NotTangent {
+            residual,
+            allowed: tolerance::BLEND,
+        });
     }
-    Ok(Blend { surface: surface.dupin, family: *family, parameter, contacts, contact_family, residual })
+    Ok(Blend {
+        surface: surface.dupin,
+        family: *family,
+        parameter,
+        contacts,
+        contact_family,
+        residual,
+    })
 }
 
 /// A surface and whether its normals are opposite to the orientation of the family's lines.
@@ -212,16 +273,34 @@ fn quartic(
     b: f64,
     [first, second]: [Cycle; 2],
 ) -> Result<(Oriented, ContactFamily), Error> {
-    let contact_family = if conic == Conic::Ellipse { ContactFamily::Theta } else { ContactFamily::Psi };
+    let contact_family = if conic == Conic::Ellipse {
+        ContactFamily::Theta
+    } else {
+        ContactFamily::Psi
+    };
     let reversed = mean.radius < 0.0;
-    let frame_of = |x: DVec3, y: DVec3| Frame::from_directions(mean.centre, x, y).ok_or(Error::Collapsed { parameter: b });
-    let done = |surface: Quartic| Ok((Oriented { dupin: Dupin::Quartic(surface), reversed }, contact_family));
+    let frame_of = |x: DVec3, y: DVec3| {
+        Frame::from_directions(mean.centre, x, y).ok_or(Error::Collapsed { parameter: b })
+    };
+    let done = |surface: Quartic| {
+        Ok((
+            Oriented {
+                dupin: Dupin::Quartic(surface),
+                reversed,
+            },
+            contact_family,
+        ))
+    };
 
     if family.one_axis {
         // A torus about the common axis.
         let axis = family.lines[0].axis;
         let x = family.plane_normal.cross(axis);
-        return done(Quartic::with_half_axes([b, b, 0.0], mean.radius, frame_of(x, axis.cross(x))?)?);
+        return done(Quartic::with_half_axes(
+            [b, b, 0.0],
+            mean.radius,
+            frame_of(x, axis.cross(x))?,
+        )?);
     }
     // The direction of the plane without change of radius lies along y (ellipse) or z (hyperbola); the unit vector orthogonal to it
     // is (a x; -c)/b or (c x; -a)/b.
@@ -229,10 +308,19 @@ fn quartic(
     let Some(level) = level.try_normalize() else {
         // Two cylinders: all spheres of the conic have one radius, a torus about the normal of the axial plane.
         let x = first.centre;
-        return done(Quartic::with_half_axes([b, b, 0.0], mean.radius, frame_of(x, family.plane_normal.cross(x))?)?);
+        return done(Quartic::with_half_axes(
+            [b, b, 0.0],
+            mean.radius,
+            frame_of(x, family.plane_normal.cross(x))?,
+        )?);
     };
     let orthogonal = [first, second]
-        .map(|vector| Cycle::new(vector.centre - vector.centre.dot(level) * level, vector.radius))
+        .map(|vector| {
+            Cycle::new(
+                vector.centre - vector.centre.dot(level) * level,
+                vector.radius,
+            )
+        })
         .into_iter()
         .max_by(|v, w| norm(*v).total_cmp(&norm(*w)))
         .unwrap_or_default();
@@ -242,13 +330,25 @@ fn quartic(
     let surface = match conic {
         Conic::Ellipse => {
             let c = -b * unit.radius;
-            Quartic::with_half_axes([c.hypot(b), b, c], mean.radius, frame_of(unit.centre, level)?)?
+            Quartic::with_half_axes(
+                [c.hypot(b), b, c],
+                mean.radius,
+                frame_of(unit.centre, level)?,
+            )?
         }
         _ => {
             let c = b * along_x;
             // Where c vanishes x is free in the plane orthogonal to the axis z.
-            let x = if along_x > tolerance::EXACT_KIND { unit.centre } else { family.plane_normal.cross(level) };
-            Quartic::with_half_axes([c.hypot(b), b, c], mean.radius, frame_of(x, level.cross(x))?)?
+            let x = if along_x > tolerance::EXACT_KIND {
+                unit.centre
+            } else {
+                family.plane_normal.cross(level)
+            };
+            Quartic::with_half_axes(
+                [c.hypot(b), b, c],
+                mean.radius,
+                frame_of(x, level.cross(x))?,
+            )?
         }
     };
     done(surface)
@@ -259,34 +359,67 @@ fn norm(vector: Cycle) -> f64 {
 }
 
 /// The parabolic cyclide of two lines whose directions span a plane with the light-like direction `u1 + pairing u2`.
-fn cubic(family: &Family, sphere: Cycle, pairing: f64, t: f64) -> Result<(Oriented, ContactFamily), Error> {
+fn cubic(
+    family: &Family,
+    sphere: Cycle,
+    pairing: f64,
+    t: f64,
+) -> Result<(Oriented, ContactFamily), Error> {
     let [first, second] = family.lines.map(|line| line.direction());
     let (across, light_like) = (first - second * pairing, first + second * pairing);
     let collapsed = Error::Collapsed { parameter: t };
-    let x = (light_like.centre / light_like.radius).try_normalize().ok_or(collapsed)?;
+    let x = (light_like.centre / light_like.radius)
+        .try_normalize()
+        .ok_or(collapsed)?;
     let slant = across.radius / light_like.radius;
-    let ordinate_axis = (across.centre - slant * light_like.centre).try_normalize().ok_or(collapsed)?;
+    let ordinate_axis = (across.centre - slant * light_like.centre)
+        .try_normalize()
+        .ok_or(collapsed)?;
     let vertex = sphere - Cycle::new(ordinate_axis, 0.0) * (t * slant)
         + Cycle::new(x, 1.0) * (t / 4.0 * light_like.radius * (1.0 - slant * slant));
-    let (surface, is_first_family, reversed) = parabolic_from_vertex(vertex, t / light_like.radius, x, ordinate_axis)?;
-    let contact_family = if is_first_family { ContactFamily::U } else { ContactFamily::V };
-    Ok((Oriented { dupin: Dupin::Parabolic(surface), reversed }, contact_family))
+    let (surface, is_first_family, reversed) =
+        parabolic_from_vertex(vertex, t / light_like.radius, x, ordinate_axis)?;
+    let contact_family = if is_first_family {
+        ContactFamily::U
+    } else {
+        ContactFamily::V
+    };
+    Ok((
+        Oriented {
+            dupin: Dupin::Parabolic(surface),
+            reversed,
+        },
+        contact_family,
+    ))
 }
 
 /// The parameter at which a contact sphere sits on the conic of the surface.
-fn contact_parameter(surface: &Dupin, contact_family: ContactFamily, sphere: Cycle, reversed: bool) -> f64 {
+fn contact_parameter(
+    surface: &Dupin,
+    contact_family: ContactFamily,
+    sphere: Cycle,
+    reversed: bool,
+) -> f64 {
     let local = surface.frame().point_to_local(sphere.centre);
     match surface {
         Dupin::Quartic(surface) if contact_family == ContactFamily::Theta => {
             (local.y / surface.b()).atan2(local.x / surface.a())
         }
         Dupin::Quartic(surface) => {
-            let radius = if reversed { -sphere.radius } else { sphere.radius };
+            let radius = if reversed {
+                -sphere.radius
+            } else {
+                sphere.radius
+            };
             let branch = (surface.mu() - radius).signum();
             (-local.z / surface.b() * branch).atan2(branch)
         }
         Dupin::Parabolic(surface) => {
-            let ordinate = if contact_family == ContactFamily::U { local.y } else { local.z };
+            let ordinate = if contact_family == ContactFamily::U {
+                local.y
+            } else {
+                local.z
+            };
             ordinate / (2.0 * surface.f())
         }
     }
@@ -322,7 +455,12 @@ fn tangency_residual(moving: MovingSphere, sphere: Cycle, line: &SphereLine) -> 
 /// The G1 residual of a surface along a circle `parameter` of one of its families against a given cone, as [`Blend::residual`].
 /// For checking blends that were made elsewhere.
 #[must_use]
-pub fn contact_residual(surface: &Dupin, contact_family: ContactFamily, parameter: f64, cone: &Cone) -> f64 {
+pub fn contact_residual(
+    surface: &Dupin,
+    contact_family: ContactFamily,
+    parameter: f64,
+    cone: &Cone,
+) -> f64 {
     let line = cone.spheres();
     let moving = moving_sphere(surface, contact_family, parameter);
     tangency_residual(moving, line.at(line.foot(moving.sphere.centre)), &line)

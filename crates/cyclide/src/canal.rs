@@ -47,7 +47,9 @@ impl Dupin {
     }
 
     fn canal(&self, local: [SphereMassPoint; 3]) -> Result<CanalCurve, Error> {
-        Ok(CanalCurve::new(local.map(|control| in_world(self.frame(), control)))?)
+        Ok(CanalCurve::new(
+            local.map(|control| in_world(self.frame(), control)),
+        )?)
     }
 
     /// The cyclide of which the envelope of a canal curve is a piece.
@@ -61,14 +63,21 @@ impl Dupin {
         let members: Vec<Cycle> = (0..=8)
             .map(|step| quadratic.at(f64::from(step) / 8.0))
             .filter(|member| member.weighted.o.abs() > 1e-3 * member.weighted.max_abs())
-            .map(|member| Cycle::new(member.weighted.v / member.weighted.o, member.weight / member.weighted.o))
+            .map(|member| {
+                Cycle::new(
+                    member.weighted.v / member.weighted.o,
+                    member.weight / member.weighted.o,
+                )
+            })
             .collect();
         match members.as_slice() {
             [first, .., last] if members.len() > 2 => {
                 let middle = members.get(members.len() / 2).copied().unwrap_or(*first);
                 Self::from_tangent_spheres([*first, middle, *last])
             }
-            _ => Err(Error::NotDetermined { reason: "nearly all members of the canal curve are planes" }),
+            _ => Err(Error::NotDetermined {
+                reason: "nearly all members of the canal curve are planes",
+            }),
         }
     }
 }
@@ -82,19 +91,33 @@ fn control(weight: f64, centre: DVec3, radius: f64, power: f64) -> SphereMassPoi
 fn in_world(frame: &Frame, local: SphereMassPoint) -> SphereMassPoint {
     let LorentzVector { o, v, inf } = local.weighted;
     let (origin, turned) = (frame.origin(), frame.vector_to_world(v));
-    let moved = LorentzVector::new(o, turned + o * origin, inf + origin.dot(turned) + 0.5 * o * origin.length_squared());
+    let moved = LorentzVector::new(
+        o,
+        turned + o * origin,
+        inf + origin.dot(turned) + 0.5 * o * origin.length_squared(),
+    );
     MassPoint::from_homogeneous(local.weight, moved)
 }
 
 impl Quartic {
     fn first_control(&self, [one, cos, sin]: Row) -> SphereMassPoint {
         let (a, b, c, mu) = (self.a(), self.b(), self.c(), self.mu());
-        control(one, DVec3::new(a * cos, b * sin, 0.0), mu * one - c * cos, (b - mu) * (b + mu) * one + 2.0 * mu * c * cos)
+        control(
+            one,
+            DVec3::new(a * cos, b * sin, 0.0),
+            mu * one - c * cos,
+            (b - mu) * (b + mu) * one + 2.0 * mu * c * cos,
+        )
     }
 
     fn second_control(&self, [one, cos, sin]: Row) -> SphereMassPoint {
         let (a, b, c, mu) = (self.a(), self.b(), self.c(), self.mu());
-        control(cos, DVec3::new(c * one, 0.0, -b * sin), mu * cos - a * one, -(b * b + mu * mu) * cos + 2.0 * mu * a * one)
+        control(
+            cos,
+            DVec3::new(c * one, 0.0, -b * sin),
+            mu * cos - a * one,
+            -(b * b + mu * mu) * cos + 2.0 * mu * a * one,
+        )
     }
 }
 
@@ -103,13 +126,23 @@ impl Parabolic {
         let (f, k) = (self.f(), self.k());
         let radius = f * (uu + 0.5 * one) + k * one;
         let power = 2.0 * f * f * uu - 2.0 * k * f * (uu + 0.5 * one) - k * k * one;
-        control(one, DVec3::new(f * (uu - 0.5 * one), 2.0 * f * u, 0.0), radius, power)
+        control(
+            one,
+            DVec3::new(f * (uu - 0.5 * one), 2.0 * f * u, 0.0),
+            radius,
+            power,
+        )
     }
 
     fn second_control(&self, [one, v, vv]: Row) -> SphereMassPoint {
         let (f, k) = (self.f(), self.k());
         let radius = k * one - f * (vv + 0.5 * one);
         let power = 2.0 * f * f * vv + 2.0 * k * f * (vv + 0.5 * one) - k * k * one;
-        control(one, DVec3::new(f * (0.5 * one - vv), 0.0, 2.0 * f * v), radius, power)
+        control(
+            one,
+            DVec3::new(f * (0.5 * one - vv), 0.0, 2.0 * f * v),
+            radius,
+            power,
+        )
     }
 }

@@ -38,7 +38,11 @@ impl CurvatureCircle {
 
 impl From<Circle> for CurvatureCircle {
     fn from(circle: Circle) -> Self {
-        Self { centre: circle.centre(), radius: circle.radius(), axis: circle.axis() }
+        Self {
+            centre: circle.centre(),
+            radius: circle.radius(),
+            axis: circle.axis(),
+        }
     }
 }
 

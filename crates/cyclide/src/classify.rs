@@ -152,14 +152,19 @@ impl Classification {
             match family.blend_at(x) {
                 Ok(blend) => blends.push(blend),
                 Err(error @ Error::NotOnDiagonal { distance, .. }) => {
-                    if !matches!(nearest, Error::NotOnDiagonal { distance: other, .. } if other <= distance) {
+                    if !matches!(nearest, Error::NotOnDiagonal { distance: other, .. } if other <= distance)
+                    {
                         nearest = error;
                     }
                 }
                 Err(error) => return Err(error),
             }
         }
-        if blends.is_empty() { Err(nearest) } else { Ok(blends) }
+        if blends.is_empty() {
+            Err(nearest)
+        } else {
+            Ok(blends)
+        }
     }
 
     /// The members that touch the first cone in the plane perpendicular to its axis at `height` from its vertex (its reference point, if it is a
@@ -173,11 +178,20 @@ impl Classification {
         if self.families.is_empty() {
             return Err(Error::NotBlendable(self.class));
         }
-        Ok(self.families.iter().filter_map(|family| family.blend_at_height(height).ok()).collect())
+        Ok(self
+            .families
+            .iter()
+            .filter_map(|family| family.blend_at_height(height).ok())
+            .collect())
     }
 
     const fn without_families(class: Class) -> Self {
-        Self { class, common_spheres: Vec::new(), double_lines: Vec::new(), families: Vec::new() }
+        Self {
+            class,
+            common_spheres: Vec::new(),
+            double_lines: Vec::new(),
+            families: Vec::new(),
+        }
     }
 }
 
@@ -212,9 +226,18 @@ impl Pair {
         let (first, second) = (first.spheres(), second.spheres());
         let offset = second.point - first.point;
         let rounding = tolerance::SAME_POINT * first.point.length().max(second.point.length());
-        let offset = if offset.length() <= rounding { DVec3::ZERO } else { offset };
+        let offset = if offset.length() <= rounding {
+            DVec3::ZERO
+        } else {
+            offset
+        };
         let size = offset.length().max(first.radius).max(second.radius);
-        Self { first, second, offset, size: if size > 0.0 { size } else { 1.0 } }
+        Self {
+            first,
+            second,
+            offset,
+            size: if size > 0.0 { size } else { 1.0 },
+        }
     }
 
     fn crossing_axes(&self) -> Classification {
@@ -224,20 +247,28 @@ impl Pair {
         let plane_normal = cross.normalize();
         let distance = self.offset.dot(plane_normal).abs();
         if distance > near {
-            return Classification::without_families(Class::NotBlendable(Obstacle::SkewAxes { distance }));
+            return Classification::without_families(Class::NotBlendable(Obstacle::SkewAxes {
+                distance,
+            }));
         }
         let along = |axis: DVec3| self.offset.cross(axis).dot(cross) / cross.length_squared();
         let (on_first, on_second) = (first.at(along(second.axis)), second.at(along(first.axis)));
         let radii = [on_first.radius, on_second.radius];
         let near = tolerance::CLASS * self.size.max(radii[0].abs());
-        let orientations = [1_i8, -1].into_iter().filter(|&o| (radii[0] - f64::from(o) * radii[1]).abs() <= near);
+        let orientations = [1_i8, -1]
+            .into_iter()
+            .filter(|&o| (radii[0] - f64::from(o) * radii[1]).abs() <= near);
         let common_vertex = orientations.clone().count() == 2;
 
         let mut common_spheres = Vec::new();
         let mut double_lines = Vec::new();
         let mut families = Vec::new();
         for orientation in orientations {
-            let second = if orientation > 0 { second } else { second.reversed() };
+            let second = if orientation > 0 {
+                second
+            } else {
+                second.reversed()
+            };
             let centre = 0.5 * (on_first.centre + second.point + along(first.axis) * second.axis);
             let sphere = if common_vertex {
                 Cycle::new(first.point, 0.0)
@@ -253,7 +284,11 @@ impl Pair {
                 lines,
                 orientation,
                 conic,
-                structure: Structure::Meet { sphere, pairing, product },
+                structure: Structure::Meet {
+                    sphere,
+                    pairing,
+                    product,
+                },
                 plane_normal,
                 size: self.size,
                 one_axis: false,
@@ -263,38 +298,66 @@ impl Pair {
                 double_lines.extend(double_line(&lines, sphere, pairing));
                 families.push(family(pairing, Conic::Parabola));
             } else {
-                let conic = if product.abs() < 1.0 { Conic::Ellipse } else { Conic::Hyperbola };
+                let conic = if product.abs() < 1.0 {
+                    Conic::Ellipse
+                } else {
+                    Conic::Hyperbola
+                };
                 families.extend([family(1, conic), family(-1, conic)]);
             }
         }
         let class = if families.is_empty() {
-            Class::NotBlendable(Obstacle::NoCommonSphere { radii: radii.map(f64::abs) })
+            Class::NotBlendable(Obstacle::NoCommonSphere {
+                radii: radii.map(f64::abs),
+            })
         } else if common_vertex {
-            Class::CommonVertex { double_lines: if double_lines.len() > 1 { 2 } else { double_lines.len() as u8 } }
+            Class::CommonVertex {
+                double_lines: if double_lines.len() > 1 {
+                    2
+                } else {
+                    double_lines.len() as u8
+                },
+            }
         } else if double_lines.is_empty() {
             Class::GeneralIntersecting
         } else {
             Class::DoubleLine
         };
-        Classification { class, common_spheres, double_lines, families }
+        Classification {
+            class,
+            common_spheres,
+            double_lines,
+            families,
+        }
     }
 
     fn parallel_axes(&self, first_cone: &Cone, second_cone: &Cone) -> Classification {
         let first = self.first;
         let axis = first.axis;
-        let second = if axis.dot(self.second.axis) < 0.0 { self.second.with_opposite_axis() } else { self.second };
+        let second = if axis.dot(self.second.axis) < 0.0 {
+            self.second.with_opposite_axis()
+        } else {
+            self.second
+        };
         let near = tolerance::CLASS * self.size;
         let ahead = self.offset.dot(axis);
         let sideways = self.offset - ahead * axis;
         let one_axis = sideways.length() <= near;
-        let plane_normal =
-            if one_axis { axis.any_orthonormal_vector() } else { axis.cross(sideways).normalize() };
+        let plane_normal = if one_axis {
+            axis.any_orthonormal_vector()
+        } else {
+            axis.cross(sideways).normalize()
+        };
 
         let mut common_spheres = Vec::new();
         let mut families = Vec::new();
         let mut touching = false;
         for orientation in [1_i8, -1] {
-            let second = if orientation > 0 { second } else { second.reversed() };
+            let second = if orientation > 0 {
+                second
+            } else {
+                second.reversed()
+            };
             let lines = [first, second];
             let family = |structure| Family {
                 lines,
@@ -319,16 +382,33 @@ impl Pair {
                     continue;
                 }
                 let sideways = if one_axis { DVec3::ZERO } else { sideways };
-                let step = Cycle::new(sideways, 0.0) + Cycle::new(first.sin * axis, 1.0) * (delay / first.cos);
-                let conic = if apart > delay.abs() { Conic::Ellipse } else { Conic::Hyperbola };
-                families.push(Family { conic, ..family(Structure::Parallel { step, square: (apart - delay) * (apart + delay) }) });
+                let step = Cycle::new(sideways, 0.0)
+                    + Cycle::new(first.sin * axis, 1.0) * (delay / first.cos);
+                let conic = if apart > delay.abs() {
+                    Conic::Ellipse
+                } else {
+                    Conic::Hyperbola
+                };
+                families.push(Family {
+                    conic,
+                    ..family(Structure::Parallel {
+                        step,
+                        square: (apart - delay) * (apart + delay),
+                    })
+                });
             } else if one_axis {
                 let s = (radius_step - ahead * second.sin) / (first.sin - second.sin);
                 let sphere = first.at(s);
-                let product = first.direction().product(Cycle::new(axis / second.cos, second.sin / second.cos));
+                let product = first
+                    .direction()
+                    .product(Cycle::new(axis / second.cos, second.sin / second.cos));
                 common_spheres.push(sphere);
                 for pairing in [1, -1] {
-                    families.push(family(Structure::Meet { sphere, pairing, product }));
+                    families.push(family(Structure::Meet {
+                        sphere,
+                        pairing,
+                        product,
+                    }));
                 }
             }
         }
@@ -340,7 +420,12 @@ impl Pair {
                 half_angles: [first_cone.half_angle(), second_cone.half_angle()],
             }),
         };
-        Classification { class, common_spheres, double_lines: Vec::new(), families }
+        Classification {
+            class,
+            common_spheres,
+            double_lines: Vec::new(),
+            families,
+        }
     }
 }
 
@@ -350,5 +435,9 @@ fn double_line(lines: &[SphereLine; 2], sphere: Cycle, pairing: i8) -> Option<Do
     let light_like = lines[0].direction() + lines[1].direction() * f64::from(pairing);
     let normal = (-light_like.centre / light_like.radius).try_normalize()?;
     let direction = (lines[0].axis + lines[0].sin * normal).try_normalize()?;
-    Some(DoubleLine { point: sphere.point_with_normal(normal), direction, normal })
+    Some(DoubleLine {
+        point: sphere.point_with_normal(normal),
+        direction,
+        normal,
+    })
 }

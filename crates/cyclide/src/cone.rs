@@ -8,7 +8,11 @@ use std::f64::consts::FRAC_PI_2;
 
 /// A circular cone, with both nappes, or a circular cylinder (a cone with its vertex at infinity).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "ConeData", into = "ConeData"))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "ConeData", into = "ConeData")
+)]
 pub struct Cone {
     point: DVec3,
     axis: DVec3,
@@ -28,7 +32,12 @@ impl Cone {
         finite_vector("cone vertex", vertex)?;
         let axis = axis.try_normalize().ok_or(Error::Axis { axis })?;
         if half_angle > 0.0 && half_angle < FRAC_PI_2 {
-            Ok(Self { point: vertex, axis, half_angle, radius: 0.0 })
+            Ok(Self {
+                point: vertex,
+                axis,
+                half_angle,
+                radius: 0.0,
+            })
         } else {
             Err(Error::HalfAngle { half_angle })
         }
@@ -46,7 +55,12 @@ impl Cone {
         if radius <= 0.0 {
             return Err(Error::CylinderRadius { radius });
         }
-        Ok(Self { point, axis, half_angle: 0.0, radius })
+        Ok(Self {
+            point,
+            axis,
+            half_angle: 0.0,
+            radius,
+        })
     }
 
     /// The cone of which the given spheres form the line; `None` if the spheres are equal or one lies inside the other.
@@ -61,7 +75,12 @@ impl Cone {
         if sine == 0.0 {
             return Self::cylinder(from.centre, axis, from.radius.abs()).ok();
         }
-        Self::new(from.centre - from.radius / sine * axis, axis * sine.signum(), sine.abs().asin()).ok()
+        Self::new(
+            from.centre - from.radius / sine * axis,
+            axis * sine.signum(),
+            sine.abs().asin(),
+        )
+        .ok()
     }
 
     /// The vertex; `None` for a cylinder.
@@ -104,14 +123,24 @@ impl Cone {
     #[must_use]
     pub fn spheres(&self) -> SphereLine {
         let (sin, cos) = self.half_angle.sin_cos();
-        SphereLine { point: self.point, radius: self.radius, axis: self.axis, sin, cos }
+        SphereLine {
+            point: self.point,
+            radius: self.radius,
+            axis: self.axis,
+            sin,
+            cos,
+        }
     }
 
     /// The circle in the plane perpendicular to the axis at signed distance `height` from [`Cone::point`].
     #[must_use]
     pub fn circle_at(&self, height: f64) -> CurvatureCircle {
         let radius = self.radius + height * self.half_angle.tan();
-        CurvatureCircle { centre: self.point + height * self.axis, radius: radius.abs(), axis: self.axis }
+        CurvatureCircle {
+            centre: self.point + height * self.axis,
+            radius: radius.abs(),
+            axis: self.axis,
+        }
     }
 
     /// Which nappe the plane at this height cuts: 1 on the side of the axis direction, -1 on the other, 0 at the vertex. Always
@@ -177,13 +206,21 @@ impl SphereLine {
     /// The same cone with the other orientation.
     #[must_use]
     pub(crate) fn reversed(self) -> Self {
-        Self { radius: -self.radius, sin: -self.sin, ..self }
+        Self {
+            radius: -self.radius,
+            sin: -self.sin,
+            ..self
+        }
     }
 
     /// The same oriented cone described with the opposite axis vector.
     #[must_use]
     pub(crate) fn with_opposite_axis(self) -> Self {
-        Self { axis: -self.axis, sin: -self.sin, ..self }
+        Self {
+            axis: -self.axis,
+            sin: -self.sin,
+            ..self
+        }
     }
 
     /// Distance along the axis from the reference point to the foot of a point.
@@ -213,8 +250,16 @@ impl SphereLine {
 #[derive(serde::Serialize, serde::Deserialize)]
 #[serde(untagged)]
 enum ConeData {
-    Cone { vertex: DVec3, axis: DVec3, half_angle: f64 },
-    Cylinder { cylinder_point: DVec3, axis: DVec3, radius: f64 },
+    Cone {
+        vertex: DVec3,
+        axis: DVec3,
+        half_angle: f64,
+    },
+    Cylinder {
+        cylinder_point: DVec3,
+        axis: DVec3,
+        radius: f64,
+    },
 }
 
 #[cfg(feature = "serde")]
@@ -223,8 +268,16 @@ impl TryFrom<ConeData> for Cone {
 
     fn try_from(data: ConeData) -> Result<Self, Error> {
         match data {
-            ConeData::Cone { vertex, axis, half_angle } => Self::new(vertex, axis, half_angle),
-            ConeData::Cylinder { cylinder_point, axis, radius } => Self::cylinder(cylinder_point, axis, radius),
+            ConeData::Cone {
+                vertex,
+                axis,
+                half_angle,
+            } => Self::new(vertex, axis, half_angle),
+            ConeData::Cylinder {
+                cylinder_point,
+                axis,
+                radius,
+            } => Self::cylinder(cylinder_point, axis, radius),
         }
     }
 }
@@ -232,11 +285,24 @@ impl TryFrom<ConeData> for Cone {
 #[cfg(feature = "serde")]
 impl From<Cone> for ConeData {
     fn from(cone: Cone) -> Self {
-        let Cone { point, axis, half_angle, radius } = cone;
+        let Cone {
+            point,
+            axis,
+            half_angle,
+            radius,
+        } = cone;
         if cone.is_cylinder() {
-            Self::Cylinder { cylinder_point: point, axis, radius }
+            Self::Cylinder {
+                cylinder_point: point,
+                axis,
+                radius,
+            }
         } else {
-            Self::Cone { vertex: point, axis, half_angle }
+            Self::Cone {
+                vertex: point,
+                axis,
+                half_angle,
+            }
         }
     }
 }

@@ -79,10 +79,16 @@ pub fn convert(net: &Biquadratic<DVec3>) -> Result<Conversion, Error> {
     // radii beyond; ordinary patches pass with the first pattern.
     for signs in [[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]] {
         match scaled.convert(signs) {
-            Ok(found) if found.residual <= tolerance::REBUILT_NET => return Ok(scaled.in_world(found)),
-            Ok(found) if nearest.is_none_or(|nearest| found.residual < nearest.residual) => nearest = Some(found),
+            Ok(found) if found.residual <= tolerance::REBUILT_NET => {
+                return Ok(scaled.in_world(found));
+            }
+            Ok(found) if nearest.is_none_or(|nearest| found.residual < nearest.residual) => {
+                nearest = Some(found)
+            }
             Ok(_) => {}
-            Err(error @ (Error::Planar | Error::ConeOrCylinder)) if signs == [1.0, 1.0] => return Err(error),
+            Err(error @ (Error::Planar | Error::ConeOrCylinder)) if signs == [1.0, 1.0] => {
+                return Err(error);
+            }
             Err(_) => {}
         }
     }
@@ -91,7 +97,10 @@ pub fn convert(net: &Biquadratic<DVec3>) -> Result<Conversion, Error> {
         report.check()?;
     }
     let residual = nearest.map_or(f64::INFINITY, |nearest| nearest.residual);
-    Err(Error::NetResidual { residual, allowed: tolerance::REBUILT_NET })
+    Err(Error::NetResidual {
+        residual,
+        allowed: tolerance::REBUILT_NET,
+    })
 }
 
 /// A net about its centre and of size one, corner weights positive.
@@ -110,22 +119,39 @@ impl Scaled {
         let corners = [corner(0, 0), corner(0, 2), corner(2, 0), corner(2, 2)];
         let centre = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
         // A weighted offset stands in for the distance of a control at infinity.
-        let size = control.as_flattened().iter().map(|control| (control.weighted - control.weight * centre).length()).fold(0.0, f64::max);
+        let size = control
+            .as_flattened()
+            .iter()
+            .map(|control| (control.weighted - control.weight * centre).length())
+            .fold(0.0, f64::max);
         if !(size > 0.0 && size.is_finite()) {
             return Err(Error::Planar);
         }
         let local = |control: MassPoint<DVec3>| {
-            MassPoint::from_homogeneous(control.weight, (control.weighted - control.weight * centre) / size)
+            MassPoint::from_homogeneous(
+                control.weight,
+                (control.weighted - control.weight * centre) / size,
+            )
         };
-        Ok(Self { net: Biquadratic::new(control.map(|row| row.map(local)))?, centre, size })
+        Ok(Self {
+            net: Biquadratic::new(control.map(|row| row.map(local)))?,
+            centre,
+            size,
+        })
     }
 
     pub(crate) fn in_world(&self, found: Conversion) -> Conversion {
-        Conversion { surface: found.surface.scaled(self.size).translated(self.centre), ..found }
+        Conversion {
+            surface: found.surface.scaled(self.size).translated(self.centre),
+            ..found
+        }
     }
 
     fn convert(&self, signs: [f64; 2]) -> Result<Conversion, Error> {
-        let families = [self.tangent_spheres(&self.net)?, self.tangent_spheres(&self.net.transposed())?];
+        let families = [
+            self.tangent_spheres(&self.net)?,
+            self.tangent_spheres(&self.net.transposed())?,
+        ];
         if families.iter().flatten().all(|sphere| sphere.is_plane()) {
             return Err(Error::Planar);
         }
@@ -135,7 +161,11 @@ impl Scaled {
                 continue;
             }
             let [start, middle, end] = family.map(|sphere| sphere.cycle());
-            let spheres = [start, Cycle::new(middle.centre, middle.radius * signs[0]), Cycle::new(end.centre, end.radius * signs[1])];
+            let spheres = [
+                start,
+                Cycle::new(middle.centre, middle.radius * signs[0]),
+                Cycle::new(end.centre, end.radius * signs[1]),
+            ];
             match determine::through(spheres) {
                 Ok(found) => {
                     // Rows are iso-curves u = const, so their spheres touch along circles of the family that the rows follow.
@@ -145,7 +175,9 @@ impl Scaled {
                         break;
                     }
                 }
-                Err(Error::NotDetermined { .. }) if spheres_agree(&spheres) => return self.sphere(start),
+                Err(Error::NotDetermined { .. }) if spheres_agree(&spheres) => {
+                    return self.sphere(start);
+                }
                 Err(Error::ConeOrCylinder) => return Err(Error::ConeOrCylinder),
                 Err(error) => outcome = outcome.or(Err(error)),
             }
@@ -167,45 +199,90 @@ impl Scaled {
 
     /// Parameters of the edges on a surface that is known, its frame turned about `x` if the first parameter falls, and the residual of
     /// the rebuilt net.
-    pub(crate) fn read_off(&self, surface: Dupin, rows_follow_first: bool) -> Result<Conversion, Error> {
+    pub(crate) fn read_off(
+        &self,
+        surface: Dupin,
+        rows_follow_first: bool,
+    ) -> Result<Conversion, Error> {
         let found = self.read_off_in(surface, rows_follow_first)?;
         if found.first[0] < found.first[1] {
             return Ok(found);
         }
         // Half a turn about x changes the sign of both parameters.
-        self.read_off_in(surface.in_frame(surface.frame().turned_about_x()), rows_follow_first)
+        self.read_off_in(
+            surface.in_frame(surface.frame().turned_about_x()),
+            rows_follow_first,
+        )
     }
 
     /// The same in the frame that the surface has.
-    pub(crate) fn read_off_in(&self, surface: Dupin, rows_follow_first: bool) -> Result<Conversion, Error> {
-        let net = if rows_follow_first { self.net } else { self.net.transposed() };
-        let along_first = |t: f64| net.point(t, READING_LINE).map(|point| surface.parameters_at(point));
-        let along_second = |t: f64| net.point(READING_LINE, t).map(|point| surface.parameters_at(point));
+    pub(crate) fn read_off_in(
+        &self,
+        surface: Dupin,
+        rows_follow_first: bool,
+    ) -> Result<Conversion, Error> {
+        let net = if rows_follow_first {
+            self.net
+        } else {
+            self.net.transposed()
+        };
+        let along_first = |t: f64| {
+            net.point(t, READING_LINE)
+                .map(|point| surface.parameters_at(point))
+        };
+        let along_second = |t: f64| {
+            net.point(READING_LINE, t)
+                .map(|point| surface.parameters_at(point))
+        };
         let (first, second) = match &surface {
-            Dupin::Parabolic(_) => {
-                ([along_first(0.0)?[0], along_first(1.0)?[0]], [along_second(0.0)?[1], along_second(1.0)?[1]])
-            }
-            Dupin::Quartic(quartic) => (follow(quartic, along_first, 0)?, follow(quartic, along_second, 1)?),
+            Dupin::Parabolic(_) => (
+                [along_first(0.0)?[0], along_first(1.0)?[0]],
+                [along_second(0.0)?[1], along_second(1.0)?[1]],
+            ),
+            Dupin::Quartic(quartic) => (
+                follow(quartic, along_first, 0)?,
+                follow(quartic, along_second, 1)?,
+            ),
         };
         let (first, second) = match surface {
             Dupin::Quartic(_) => (reduced(first), reduced(second)),
             Dupin::Parabolic(_) => (first, second),
         };
         let residual = self.residual(&surface, rows_follow_first, first, second)?;
-        Ok(Conversion { surface, rows_follow_first, first, second, residual })
+        Ok(Conversion {
+            surface,
+            rows_follow_first,
+            first,
+            second,
+            residual,
+        })
     }
 
     /// Largest difference between the normalised nets, relative to their largest entry.
-    fn residual(&self, surface: &Dupin, rows_follow_first: bool, first: [f64; 2], second: [f64; 2]) -> Result<f64, Error> {
+    fn residual(
+        &self,
+        surface: &Dupin,
+        rows_follow_first: bool,
+        first: [f64; 2],
+        second: [f64; 2],
+    ) -> Result<f64, Error> {
         let patch = surface.patch(first, second)?;
-        let net = if rows_follow_first { *patch.net() } else { patch.net().transposed() };
+        let net = if rows_follow_first {
+            *patch.net()
+        } else {
+            patch.net().transposed()
+        };
         let rebuilt = normalise(&net)?;
         let given = self.net.control().as_flattened();
         let mut largest = 1.0_f64;
         let mut difference = 0.0_f64;
         for (given, rebuilt) in given.iter().zip(rebuilt.control().as_flattened()) {
-            largest = largest.max(given.weight.abs()).max(given.weighted.abs().max_element());
-            difference = difference.max((given.weight - rebuilt.weight).abs()).max((given.weighted - rebuilt.weighted).abs().max_element());
+            largest = largest
+                .max(given.weight.abs())
+                .max(given.weighted.abs().max_element());
+            difference = difference
+                .max((given.weight - rebuilt.weight).abs())
+                .max((given.weighted - rebuilt.weighted).abs().max_element());
         }
         Ok(difference / largest)
     }
@@ -217,21 +294,46 @@ impl Scaled {
         let columns = self.pencil_axis(&self.net.transposed(), sphere.centre, radius);
         // The planes of theta = const meet in a line that cuts the sphere; those of psi = const outside, or are parallel.
         let (axis, rows_follow_first) = match (rows, columns) {
-            (Some(rows), Some(columns)) if columns.foot.length() < rows.foot.length() => (columns, false),
+            (Some(rows), Some(columns)) if columns.foot.length() < rows.foot.length() => {
+                (columns, false)
+            }
             (Some(rows), _) => (rows, true),
             (None, Some(columns)) => (columns, false),
-            (None, None) => return Err(Error::NotDetermined { reason: "the iso-curves lie in parallel planes" }),
+            (None, None) => {
+                return Err(Error::NotDetermined {
+                    reason: "the iso-curves lie in parallel planes",
+                });
+            }
         };
         let e = axis.foot.length() / radius;
         let z = axis.direction;
-        let x = if e <= tolerance::TANGENT_SPHERES { z.any_orthonormal_vector() } else { axis.foot };
-        let e = if e <= tolerance::TANGENT_SPHERES { 0.0 } else { e };
-        let frame = Frame::from_directions(sphere.centre, x, z.cross(x)).ok_or(Error::NotDetermined { reason: "the net collapses" })?;
-        self.read_off(Quartic::double_sphere(radius, e, frame)?.into(), rows_follow_first)
+        let x = if e <= tolerance::TANGENT_SPHERES {
+            z.any_orthonormal_vector()
+        } else {
+            axis.foot
+        };
+        let e = if e <= tolerance::TANGENT_SPHERES {
+            0.0
+        } else {
+            e
+        };
+        let frame =
+            Frame::from_directions(sphere.centre, x, z.cross(x)).ok_or(Error::NotDetermined {
+                reason: "the net collapses",
+            })?;
+        self.read_off(
+            Quartic::double_sphere(radius, e, frame)?.into(),
+            rows_follow_first,
+        )
     }
 
     /// The line common to the planes of the iso-curves `u = 0` and `u = 1`, about the centre of a sphere.
-    fn pencil_axis(&self, net: &Biquadratic<DVec3>, centre: DVec3, radius: f64) -> Option<PencilAxis> {
+    fn pencil_axis(
+        &self,
+        net: &Biquadratic<DVec3>,
+        centre: DVec3,
+        radius: f64,
+    ) -> Option<PencilAxis> {
         let plane = |u: f64| -> Option<(DVec3, f64)> {
             let [p, q, r] = [0.0, 0.5, 1.0].map(|v| net.point(u, v).ok());
             let (p, q, r) = (p? - centre, q? - centre, r? - centre);
@@ -243,8 +345,12 @@ impl Scaled {
         if cross.length() <= tolerance::TANGENT_SPHERES {
             return None;
         }
-        let foot = (first.1 * second.0.cross(cross) - second.1 * first.0.cross(cross)) / cross.length_squared();
-        (foot.length() < radius).then_some(PencilAxis { foot, direction: cross.normalize() })
+        let foot = (first.1 * second.0.cross(cross) - second.1 * first.0.cross(cross))
+            / cross.length_squared();
+        (foot.length() < radius).then_some(PencilAxis {
+            foot,
+            direction: cross.normalize(),
+        })
     }
 }
 
@@ -278,14 +384,24 @@ impl HomogeneousSphere {
         // The next start is tried where the patch has no normal, at a singular corner.
         for start in [0.0, 0.5, 1.0] {
             let jet = net.jet(u, start);
-            let Some(point) = jet.value.position() else { continue };
-            let along = |partial: MassPoint<DVec3>| (partial.weighted - partial.weight * point) / jet.value.weight;
+            let Some(point) = jet.value.position() else {
+                continue;
+            };
+            let along = |partial: MassPoint<DVec3>| {
+                (partial.weighted - partial.weight * point) / jet.value.weight
+            };
             let (along_u, along_v) = (along(jet.du), along(jet.dv));
-            let cross = if flipped { along_v.cross(along_u) } else { along_u.cross(along_v) };
+            let cross = if flipped {
+                along_v.cross(along_u)
+            } else {
+                along_u.cross(along_v)
+            };
             if cross.length() <= tolerance::TANGENT_SPHERES * along_u.length() * along_v.length() {
                 continue;
             }
-            let Some(normal) = cross.try_normalize() else { continue };
+            let Some(normal) = cross.try_normalize() else {
+                continue;
+            };
             let chord = [0.0, 0.5, 1.0]
                 .into_iter()
                 .filter_map(|v| net.point(u, v).ok())
@@ -294,7 +410,11 @@ impl HomogeneousSphere {
                 .unwrap_or_default();
             let square = chord.length_squared();
             let weight = normal.dot(chord);
-            return Ok(Self { weight, centre: weight * point + 0.5 * square * normal, radius: -0.5 * square });
+            return Ok(Self {
+                weight,
+                centre: weight * point + 0.5 * square * normal,
+                radius: -0.5 * square,
+            });
         }
         Err(Error::NoNormal { u, v: 0.0 })
     }
@@ -322,9 +442,19 @@ fn follow(
         let next = parameters(f64::from(step) / f64::from(SAMPLES))?;
         // On the double sphere (theta, psi) and (theta + pi, pi - psi) are one point.
         let other = [next[0] + PI, PI - next[1]];
-        let [near, far] = [next, other].map(|candidate| [nearest_turn(candidate[0], at[0]), nearest_turn(candidate[1], at[1])]);
-        let distance = |candidate: [f64; 2]| (candidate[0] - at[0]).abs() + (candidate[1] - at[1]).abs();
-        at = if doubled && distance(far) < distance(near) { far } else { near };
+        let [near, far] = [next, other].map(|candidate| {
+            [
+                nearest_turn(candidate[0], at[0]),
+                nearest_turn(candidate[1], at[1]),
+            ]
+        });
+        let distance =
+            |candidate: [f64; 2]| (candidate[0] - at[0]).abs() + (candidate[1] - at[1]).abs();
+        at = if doubled && distance(far) < distance(near) {
+            far
+        } else {
+            near
+        };
     }
     Ok([start, at[which]])
 }

@@ -26,19 +26,34 @@ use glam::DVec3;
 /// assert!(convert(&net)?.residual < 1e-10);
 /// # Ok::<(), cyclide::Error>(())
 /// ```
-pub fn patch_from_corners(corners: [DVec3; 4], along_row: DVec3, along_column: DVec3) -> Result<Biquadratic<DVec3>, Error> {
+pub fn patch_from_corners(
+    corners: [DVec3; 4],
+    along_row: DVec3,
+    along_column: DVec3,
+) -> Result<Biquadratic<DVec3>, Error> {
     for vector in corners.into_iter().chain([along_row, along_column]) {
         finite_vector("corner data", vector)?;
     }
-    let no_direction = Error::Corners { reason: "an edge direction is zero" };
+    let no_direction = Error::Corners {
+        reason: "an edge direction is zero",
+    };
     let along_row = along_row.try_normalize().ok_or(no_direction)?;
     let along_column = along_column.try_normalize().ok_or(no_direction)?;
     if along_row.dot(along_column).abs() > tolerance::NET {
-        return Err(Error::Corners { reason: "the edge directions are not orthogonal" });
+        return Err(Error::Corners {
+            reason: "the edge directions are not orthogonal",
+        });
     }
     let [p00, p02, p20, p22] = corners;
-    let coincide = Error::Corners { reason: "two corners coincide" };
-    let mirror = |from: DVec3, to: DVec3| (to - from).try_normalize().map(|chord| move |v: DVec3| v - 2.0 * v.dot(chord) * chord).ok_or(coincide);
+    let coincide = Error::Corners {
+        reason: "two corners coincide",
+    };
+    let mirror = |from: DVec3, to: DVec3| {
+        (to - from)
+            .try_normalize()
+            .map(|chord| move |v: DVec3| v - 2.0 * v.dot(chord) * chord)
+            .ok_or(coincide)
+    };
     let (over_row, over_column) = (mirror(p00, p02)?, mirror(p00, p20)?);
     let normal = along_row.cross(along_column);
     // Middle control of the arc that leaves `from` along `tangent` and ends in `to`: weight cos(span/2), a vector for a semicircle.
@@ -54,11 +69,19 @@ pub fn patch_from_corners(corners: [DVec3; 4], along_row: DVec3, along_column: D
     }
     let far_column = arc(p02, over_row(along_column), p22) * root;
     let far_row = arc(p20, over_column(along_row), p22) * root;
-    let central = central_control(corners, [along_row, along_column], [over_row(normal), over_column(normal)])?;
+    let central = central_control(
+        corners,
+        [along_row, along_column],
+        [over_row(normal), over_column(normal)],
+    )?;
     let net = Biquadratic::new([
         [MassPoint::point(p00, 1.0), row, MassPoint::point(p02, 1.0)],
         [column, central, far_column],
-        [MassPoint::point(p20, 1.0), far_row, MassPoint::point(p22, root * root)],
+        [
+            MassPoint::point(p20, 1.0),
+            far_row,
+            MassPoint::point(p22, root * root),
+        ],
     ])?;
     // Semicircular edges have controls at infinity, which the point conditions cannot judge.
     if let Ok(report) = inspect(&net) {
@@ -68,24 +91,40 @@ pub fn patch_from_corners(corners: [DVec3; 4], along_row: DVec3, along_column: D
 }
 
 /// The control where the corners' tangent planes meet, with its weight.
-fn central_control([p00, p02, p20, _]: [DVec3; 4], [along_row, along_column]: [DVec3; 2], normals: [DVec3; 2]) -> Result<MassPoint<DVec3>, Error> {
+fn central_control(
+    [p00, p02, p20, _]: [DVec3; 4],
+    [along_row, along_column]: [DVec3; 2],
+    normals: [DVec3; 2],
+) -> Result<MassPoint<DVec3>, Error> {
     // P11 = P00 + x along_row + y along_column in the tangent planes at P02 and P20.
     let equations = [(normals[0], p02), (normals[1], p20)].map(|(normal, corner)| {
-        (normal.dot(along_row), normal.dot(along_column), normal.dot(corner - p00))
+        (
+            normal.dot(along_row),
+            normal.dot(along_column),
+            normal.dot(corner - p00),
+        )
     });
     let [(a, b, e), (c, d, f)] = equations;
     let determinant = a * d - b * c;
     if determinant.abs() <= tolerance::NET * tolerance::NET {
-        return Err(Error::Corners { reason: "the tangent planes of the corners meet in no point" });
+        return Err(Error::Corners {
+            reason: "the tangent planes of the corners meet in no point",
+        });
     }
     let (x, y) = ((e * d - b * f) / determinant, (a * f - e * c) / determinant);
     let (row, column) = (p02 - p00, p20 - p00);
     // The weight of the biquadratic conditions with lambda = x / (row / 2 cos), nu likewise, written without dividing by cosines.
     let inverse_row = 2.0 * row.dot(along_row) / row.length_squared();
     let inverse_column = 2.0 * column.dot(along_column) / column.length_squared();
-    let weight = row.length() * column.length() / (4.0 * x * y) * (x * inverse_row + y * inverse_column - 1.0);
+    let weight = row.length() * column.length() / (4.0 * x * y)
+        * (x * inverse_row + y * inverse_column - 1.0);
     if !weight.is_finite() {
-        return Err(Error::Corners { reason: "the central control lies on an edge tangent" });
+        return Err(Error::Corners {
+            reason: "the central control lies on an edge tangent",
+        });
     }
-    Ok(MassPoint::point(p00 + x * along_row + y * along_column, weight))
+    Ok(MassPoint::point(
+        p00 + x * along_row + y * along_column,
+        weight,
+    ))
 }

@@ -42,7 +42,10 @@ impl Quartic {
             let sum = square - radius * radius;
             let lever = a * q.x - c * radius;
             let span = 2.0 * lever.hypot(b * q.y);
-            ((sum - span) * (sum + span), 8.0 * c * lever - 4.0 * radius * sum)
+            (
+                (sum - span) * (sum + span),
+                8.0 * c * lever - 4.0 * radius * sum,
+            )
         };
         let inner = square.sqrt();
         let middle = (self.eccentricity() * q.x).clamp(-inner, inner);
@@ -59,7 +62,11 @@ impl Quartic {
         let mu = self.mu();
         if self.a() == 0.0 {
             let normal = q.try_normalize().unwrap_or(DVec3::X);
-            return Closest { point: mu * normal, normal, distance: q.length() - mu };
+            return Closest {
+                point: mu * normal,
+                normal,
+                distance: q.length() - mu,
+            };
         }
         let roots = self.local_offset_roots(q);
         let mut index = 0;
@@ -82,7 +89,11 @@ impl Quartic {
             let psi = (-q.z / self.b() * root.signum()).atan2(root.signum());
             self.frame().vector_to_local(self.normal(0.0, psi))
         };
-        Closest { point: q - (root - mu) * normal, normal, distance: root - mu }
+        Closest {
+            point: q - (root - mu) * normal,
+            normal,
+            distance: root - mu,
+        }
     }
 }
 
@@ -99,7 +110,10 @@ impl Parabolic {
         let (y, z) = (q.y * q.y, q.z * q.z);
         let parallel = |k: f64| {
             let (near, far) = (q.x + k - f, q.x + k + f);
-            ((q.x - k) * near * far + y * far + z * near, (q.x - k) * (near + far) - near * far + y + z)
+            (
+                (q.x - k) * near * far + y * far + z * near,
+                (q.x - k) * (near + far) - near * far + y + z,
+            )
         };
         // Fujiwara's bound for k³ + x k² - (x² + f² + y² + z²) k - ...
         let linear = q.length_squared() + f * f;
@@ -126,11 +140,17 @@ impl Parabolic {
         let normal = if gradient.length() > SINGULAR_GRADIENT * size.powi(2) {
             gradient.normalize() * if index == 1 { -1.0 } else { 1.0 }
         } else if root < 0.0 {
-            self.frame().vector_to_local(self.normal(q.y / (2.0 * self.f()), 0.0))
+            self.frame()
+                .vector_to_local(self.normal(q.y / (2.0 * self.f()), 0.0))
         } else {
-            self.frame().vector_to_local(self.normal(0.0, q.z / (2.0 * self.f())))
+            self.frame()
+                .vector_to_local(self.normal(0.0, q.z / (2.0 * self.f())))
         };
-        Closest { point: q - (root - self.k()) * normal, normal, distance: root - self.k() }
+        Closest {
+            point: q - (root - self.k()) * normal,
+            normal,
+            distance: root - self.k(),
+        }
     }
 }
 
@@ -179,7 +199,12 @@ impl Dupin {
 /// Newton's method on a root whose bracket and sign pattern are known by a theorem: `rising` says that the function goes from
 /// negative to positive. A double root at an end of the bracket is approached like any other. Nothing is isolated here;
 /// polynomials with unknown roots go to the crate `variation`.
-fn root_between(function: impl Fn(f64) -> (f64, f64), mut low: f64, mut high: f64, rising: bool) -> f64 {
+fn root_between(
+    function: impl Fn(f64) -> (f64, f64),
+    mut low: f64,
+    mut high: f64,
+    rising: bool,
+) -> f64 {
     let mut x = 0.5 * (low + high);
     // Bisection alone needs 64 steps from any bracket of doubles that matters here; Newton takes about six.
     for _ in 0..96 {
@@ -193,8 +218,14 @@ fn root_between(function: impl Fn(f64) -> (f64, f64), mut low: f64, mut high: f6
             high = x;
         }
         let newton = x - value / slope;
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        if (next - x).abs() <= 2.0 * f64::EPSILON * x.abs() || high - low <= 2.0 * f64::EPSILON * high.abs().max(low.abs()) {
+        let next = if newton > low && newton < high {
+            newton
+        } else {
+            0.5 * (low + high)
+        };
+        if (next - x).abs() <= 2.0 * f64::EPSILON * x.abs()
+            || high - low <= 2.0 * f64::EPSILON * high.abs().max(low.abs())
+        {
             return next;
         }
         x = next;

@@ -51,7 +51,9 @@ pub enum Error {
         f: f64,
     },
     /// Villarceau circles of a surface that has none.
-    #[error("Villarceau circles are real only on a ring cyclide (c < mu < a): c = {c}, mu = {mu}, a = {a}")]
+    #[error(
+        "Villarceau circles are real only on a ring cyclide (c < mu < a): c = {c}, mu = {mu}, a = {a}"
+    )]
     NotARing {
         /// Parameter `a`.
         a: f64,
@@ -165,7 +167,9 @@ pub enum Error {
         allowed: f64,
     },
     /// The member of a family that is no cyclide.
-    #[error("degenerate member: the cyclide collapses to the common inscribed sphere at t = {parameter:e}")]
+    #[error(
+        "degenerate member: the cyclide collapses to the common inscribed sphere at t = {parameter:e}"
+    )]
     CommonSphere {
         /// The parameter in the family.
         parameter: f64,
@@ -200,7 +204,9 @@ pub enum Error {
         kind: crate::Kind,
     },
     /// No single cyclide joins the two circles.
-    #[error("no cyclide touches the cones along both circles: the nearest misses by {mismatch:e} of their size")]
+    #[error(
+        "no cyclide touches the cones along both circles: the nearest misses by {mismatch:e} of their size"
+    )]
     NotJoined {
         /// Relative mismatch of the second circle.
         mismatch: f64,

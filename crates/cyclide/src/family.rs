@@ -25,7 +25,11 @@ pub enum Conic {
 pub(crate) enum Structure {
     /// They meet in a common sphere; the member at `t` touches at Lorentz distance `t` on the first line and
     /// `pairing * t` on the second. `product` is that of the two unit directions.
-    Meet { sphere: Cycle, pairing: i8, product: f64 },
+    Meet {
+        sphere: Cycle,
+        pairing: i8,
+        product: f64,
+    },
     /// They are parallel; `step` leads from the first to the second, orthogonal to both; `square` is its product with itself.
     Parallel { step: Cycle, square: f64 },
 }
@@ -146,7 +150,9 @@ impl Family {
     pub fn contact_spheres(&self, parameter: f64) -> [Cycle; 2] {
         let [first, second] = &self.lines;
         match self.structure {
-            Structure::Meet { sphere, pairing, .. } => [
+            Structure::Meet {
+                sphere, pairing, ..
+            } => [
                 sphere + first.direction() * parameter,
                 sphere + second.direction() * (f64::from(pairing) * parameter),
             ],
@@ -165,7 +171,9 @@ impl Family {
     /// [`Error::NotTangent`] if rounding leaves a residual above [`tolerance::BLEND`].
     pub fn blend(&self, parameter: f64) -> Result<Blend, Error> {
         finite("family parameter", parameter)?;
-        if matches!(self.structure, Structure::Meet { .. }) && parameter.abs() <= tolerance::CLASS * self.size {
+        if matches!(self.structure, Structure::Meet { .. })
+            && parameter.abs() <= tolerance::CLASS * self.size
+        {
             return Err(Error::CommonSphere { parameter });
         }
         blend::member(self, parameter)
@@ -208,18 +216,30 @@ impl Family {
         finite_vector("point on the diagonal", x)?;
         let [first, second] = &self.lines;
         let (distance, size, parameter) = match self.structure {
-            Structure::Meet { sphere, pairing, .. } => {
+            Structure::Meet {
+                sphere, pairing, ..
+            } => {
                 let offset = x - sphere.centre;
-                let ordinates = self.lines.map(|line| offset.dot(line.axis) / line.cos + sphere.radius * line.tan());
+                let ordinates = self
+                    .lines
+                    .map(|line| offset.dot(line.axis) / line.cos + sphere.radius * line.tan());
                 let pairing = f64::from(pairing);
-                let steepness = (first.axis / first.cos - pairing * second.axis / second.cos).length();
+                let steepness =
+                    (first.axis / first.cos - pairing * second.axis / second.cos).length();
                 let off_line = (ordinates[0] - pairing * ordinates[1]) / steepness;
-                (off_line.hypot(offset.dot(self.plane_normal)), offset.length(), ordinates[0])
+                (
+                    off_line.hypot(offset.dot(self.plane_normal)),
+                    offset.length(),
+                    ordinates[0],
+                )
             }
             Structure::Parallel { .. } => {
                 let offset = x - first.point;
                 let s = first.sphere_touching_at(first.foot(x));
-                let distance = self.diagonal_point_of(s).position().map_or(f64::INFINITY, |on_line| on_line.distance(x));
+                let distance = self
+                    .diagonal_point_of(s)
+                    .position()
+                    .map_or(f64::INFINITY, |on_line| on_line.distance(x));
                 (distance, offset.length(), s)
             }
         };
@@ -235,14 +255,17 @@ impl Family {
     pub fn diagonal_point_of(&self, parameter: f64) -> MassPoint<DVec3> {
         let [first, second] = &self.lines;
         match self.structure {
-            Structure::Meet { sphere, pairing, .. } => {
+            Structure::Meet {
+                sphere, pairing, ..
+            } => {
                 let cross = first.axis.cross(second.axis);
                 let weight = cross.length_squared();
                 let reach = [
                     first.cos * parameter - sphere.radius * first.sin,
                     second.cos * f64::from(pairing) * parameter - sphere.radius * second.sin,
                 ];
-                let offset = reach[0] * second.axis.cross(cross) - reach[1] * first.axis.cross(cross);
+                let offset =
+                    reach[0] * second.axis.cross(cross) - reach[1] * first.axis.cross(cross);
                 MassPoint::from_homogeneous(weight, weight * sphere.centre + offset)
             }
             Structure::Parallel { .. } => {
@@ -250,7 +273,10 @@ impl Family {
                 let spheres = self.contact_spheres(parameter);
                 let [foot, other_foot] = spheres.map(|sphere| first.contact_circle(sphere).centre);
                 let [radius, other_radius] = spheres.map(|sphere| sphere.radius);
-                MassPoint::from_homogeneous(radius + other_radius, other_radius * foot + radius * other_foot)
+                MassPoint::from_homogeneous(
+                    radius + other_radius,
+                    other_radius * foot + radius * other_foot,
+                )
             }
         }
     }
@@ -265,7 +291,10 @@ impl Family {
         let (point, direction) = match self.structure {
             Structure::Meet { pairing, .. } => {
                 let steep = first.axis / first.cos - f64::from(pairing) * second.axis / second.cos;
-                (self.diagonal_point_of(0.0).position()?, self.plane_normal.cross(steep).try_normalize()?)
+                (
+                    self.diagonal_point_of(0.0).position()?,
+                    self.plane_normal.cross(steep).try_normalize()?,
+                )
             }
             Structure::Parallel { .. } => {
                 let [from, to] = [0.0, self.size].map(|s| self.diagonal_point_of(s));
@@ -273,14 +302,20 @@ impl Family {
                 (from.position().or(to.position())?, direction)
             }
         };
-        Some(Diagonal { point, direction, diagonal_points: self.diagonal_points() })
+        Some(Diagonal {
+            point,
+            direction,
+            diagonal_points: self.diagonal_points(),
+        })
     }
 
     /// Where the paired skeletal lines `(x - q) . n = rho` of the two cones meet.
     fn diagonal_points(&self) -> [MassPoint<DVec3>; 2] {
         let [first, second] = &self.lines;
         let across = self.plane_normal;
-        let normal = |line: &SphereLine, side: f64| -line.sin * line.axis + side * line.cos * across.cross(line.axis);
+        let normal = |line: &SphereLine, side: f64| {
+            -line.sin * line.axis + side * line.cos * across.cross(line.axis)
+        };
         let other_side = if self.pairing() < 0 { 1.0 } else { -1.0 };
         [1.0, -1.0].map(|side| {
             let (n, m) = (normal(first, side), normal(second, other_side * side));
@@ -297,22 +332,42 @@ impl Family {
         let [first, second] = &self.lines;
         let (tan, other_tan) = (first.tan(), second.tan());
         match self.structure {
-            Structure::Meet { sphere, pairing, product } => {
+            Structure::Meet {
+                sphere,
+                pairing,
+                product,
+            } => {
                 let pairing = f64::from(pairing);
                 if self.conic == Conic::Parabola {
                     let sum = tan + pairing * other_tan;
-                    return Shape { outer: 0.5, inner: 0.0, slope: sphere.radius * sum, offset: pairing * tan * other_tan - 0.5 };
+                    return Shape {
+                        outer: 0.5,
+                        inner: 0.0,
+                        slope: sphere.radius * sum,
+                        offset: pairing * tan * other_tan - 0.5,
+                    };
                 }
-                let b = ((1.0 - pairing * product) / (1.0 + pairing * product)).abs().sqrt();
-                let tilt = (tan * tan + other_tan * other_tan - 2.0 * product * tan * other_tan) / (1.0 - product * product);
+                let b = ((1.0 - pairing * product) / (1.0 + pairing * product))
+                    .abs()
+                    .sqrt();
+                let tilt = (tan * tan + other_tan * other_tan - 2.0 * product * tan * other_tan)
+                    / (1.0 - product * product);
                 let offset = (tan + pairing * other_tan) / (1.0 + pairing * product);
-                Shape { slope: sphere.radius, offset, ..self.half_axes(b, tilt) }
+                Shape {
+                    slope: sphere.radius,
+                    offset,
+                    ..self.half_axes(b, tilt)
+                }
             }
             Structure::Parallel { step, square } => {
                 let b = square.abs().sqrt() / 2.0;
                 // The radius-free direction in the plane of the lines, orthogonal to it the direction of the axis x.
                 let tilt = tan * tan + step.radius * step.radius / square;
-                Shape { slope: first.sin, offset: first.radius + step.radius / 2.0, ..self.half_axes(b, tilt) }
+                Shape {
+                    slope: first.sin,
+                    offset: first.radius + step.radius / 2.0,
+                    ..self.half_axes(b, tilt)
+                }
             }
         }
     }
@@ -327,7 +382,12 @@ impl Family {
             (outer, ((outer - b) * (outer + b)).sqrt())
         };
         let inner = if self.one_axis { 0.0 } else { inner };
-        Shape { outer, inner, slope: 0.0, offset: 0.0 }
+        Shape {
+            outer,
+            inner,
+            slope: 0.0,
+            offset: 0.0,
+        }
     }
 
     /// The type of the member at a parameter, from its place between the boundaries; the member is not built.
@@ -345,7 +405,12 @@ impl Family {
         if self.conic == Conic::Parabola {
             Kind::of_parabolic(1.0, mean_radius, tolerance::RECOVERED_KIND)
         } else {
-            Kind::of_quartic(shape.outer, shape.inner, mean_radius.abs(), tolerance::RECOVERED_KIND)
+            Kind::of_quartic(
+                shape.outer,
+                shape.inner,
+                mean_radius.abs(),
+                tolerance::RECOVERED_KIND,
+            )
         }
     }
 
@@ -354,7 +419,8 @@ impl Family {
     #[must_use]
     pub fn boundaries(&self) -> [Option<f64>; 4] {
         let shape = self.shape();
-        [shape.outer, -shape.outer, shape.inner, -shape.inner].map(|mean_radius| self.parameter_of_mean(&shape, mean_radius))
+        [shape.outer, -shape.outer, shape.inner, -shape.inner]
+            .map(|mean_radius| self.parameter_of_mean(&shape, mean_radius))
     }
 
     /// The parameters in the middle of the two ring intervals, where the mean radius is half way between `a` and `c` (first) and minus that
@@ -375,7 +441,8 @@ impl Family {
         let difference = mean_radius - shape.offset;
         match self.structure {
             Structure::Meet { .. } => {
-                let at_infinity = difference.abs() <= tolerance::CLASS * shape.outer.max(shape.offset.abs());
+                let at_infinity =
+                    difference.abs() <= tolerance::CLASS * shape.outer.max(shape.offset.abs());
                 (!at_infinity && shape.slope != 0.0).then(|| shape.slope / difference)
             }
             Structure::Parallel { .. } => (shape.slope != 0.0).then(|| difference / shape.slope),
@@ -388,10 +455,17 @@ impl Family {
     pub fn intervals(&self) -> Vec<TypeInterval> {
         let shape = self.shape();
         if shape.slope == 0.0 {
-            return vec![TypeInterval { kind: self.kind_of(&shape, shape.offset), from: f64::NEG_INFINITY, to: f64::INFINITY }];
+            return vec![TypeInterval {
+                kind: self.kind_of(&shape, shape.offset),
+                from: f64::NEG_INFINITY,
+                to: f64::INFINITY,
+            }];
         }
         let bounds = [-shape.outer, -shape.inner, shape.inner, shape.outer];
-        let mut ends: Vec<f64> = bounds.iter().map(|bound| (bound - shape.offset) / shape.slope).collect();
+        let mut ends: Vec<f64> = bounds
+            .iter()
+            .map(|bound| (bound - shape.offset) / shape.slope)
+            .collect();
         if shape.inner == 0.0 {
             // Tori and cubics: the inner boundaries are none.
             ends = vec![ends[0], ends[3]];
@@ -407,7 +481,11 @@ impl Family {
                     (false, _) => to - (1.0 + to.abs()),
                     (_, false) => from + (1.0 + from.abs()),
                 };
-                Some(TypeInterval { kind: self.kind_of(&shape, shape.slope * inside + shape.offset), from, to })
+                Some(TypeInterval {
+                    kind: self.kind_of(&shape, shape.slope * inside + shape.offset),
+                    from,
+                    to,
+                })
             })
             .collect()
     }
@@ -424,7 +502,9 @@ impl Family {
         let [sphere, _] = self.contact_spheres(parameter);
         let expected = line.contact_circle(sphere);
         let size = circle.radius.max(self.size);
-        let deviation = (expected.centre.distance(circle.centre) + (expected.radius - circle.radius).abs()) / size
+        let deviation = (expected.centre.distance(circle.centre)
+            + (expected.radius - circle.radius).abs())
+            / size
             + expected.axis.cross(circle.axis).length();
         if !(deviation <= tolerance::CLASS) {
             return Err(Error::NotACircleOfTheCone { deviation });

@@ -8,7 +8,11 @@ use glam::DVec3;
 /// Every surface of this crate is written in the local coordinates of its frame: the symmetry planes are `y = 0` and
 /// `z = 0`, and `x` is their common line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "[DVec3; 4]", into = "[DVec3; 4]"))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "[DVec3; 4]", into = "[DVec3; 4]")
+)]
 pub struct Frame {
     origin: DVec3,
     x: DVec3,
@@ -18,7 +22,12 @@ pub struct Frame {
 
 impl Frame {
     /// The world's own frame.
-    pub const WORLD: Self = Self { origin: DVec3::ZERO, x: DVec3::X, y: DVec3::Y, z: DVec3::Z };
+    pub const WORLD: Self = Self {
+        origin: DVec3::ZERO,
+        x: DVec3::X,
+        y: DVec3::Y,
+        z: DVec3::Z,
+    };
 
     /// A frame from its origin and three axes.
     ///
@@ -30,12 +39,26 @@ impl Frame {
     /// [`Error::NotFinite`] for NaN and infinities, [`Error::NotAFrame`] for axes that are not a right-handed
     /// orthonormal triple.
     pub fn new(origin: DVec3, x: DVec3, y: DVec3, z: DVec3) -> Result<Self, Error> {
-        for (what, vector) in [("frame origin", origin), ("frame axis x", x), ("frame axis y", y), ("frame axis z", z)] {
+        for (what, vector) in [
+            ("frame origin", origin),
+            ("frame axis x", x),
+            ("frame axis y", y),
+            ("frame axis z", z),
+        ] {
             finite_vector(what, vector)?;
         }
         let skew = [x.dot(y), y.dot(z), z.dot(x)];
-        let stretch = [x.length_squared() - 1.0, y.length_squared() - 1.0, z.length_squared() - 1.0];
-        let deviation = skew.iter().chain(&stretch).fold((x.cross(y) - z).length(), |worst, value| worst.max(value.abs()));
+        let stretch = [
+            x.length_squared() - 1.0,
+            y.length_squared() - 1.0,
+            z.length_squared() - 1.0,
+        ];
+        let deviation = skew
+            .iter()
+            .chain(&stretch)
+            .fold((x.cross(y) - z).length(), |worst, value| {
+                worst.max(value.abs())
+            });
         if deviation > tolerance::FRAME {
             return Err(Error::NotAFrame { deviation });
         }
@@ -51,7 +74,12 @@ impl Frame {
         let y = (y_hint - y_hint.dot(x) * x).try_normalize()?;
         // A second pass removes what the first one rounded.
         let y = (y - y.dot(x) * x).try_normalize()?;
-        (origin.is_finite()).then_some(Self { origin, x, y, z: x.cross(y) })
+        (origin.is_finite()).then_some(Self {
+            origin,
+            x,
+            y,
+            z: x.cross(y),
+        })
     }
 
     /// Some frame with the given `z`; its `x` is an arbitrary perpendicular. `None` for a zero or infinite direction.
@@ -123,13 +151,21 @@ impl Frame {
     /// Turned by half a turn about its `y` axis: `x` and `z` change sign.
     #[must_use]
     pub(crate) fn turned_about_y(self) -> Self {
-        Self { x: -self.x, z: -self.z, ..self }
+        Self {
+            x: -self.x,
+            z: -self.z,
+            ..self
+        }
     }
 
     /// Turned by half a turn about its `x` axis: `y` and `z` change sign.
     #[must_use]
     pub(crate) fn turned_about_x(self) -> Self {
-        Self { y: -self.y, z: -self.z, ..self }
+        Self {
+            y: -self.y,
+            z: -self.z,
+            ..self
+        }
     }
 }
 
@@ -155,7 +191,11 @@ impl From<Frame> for [DVec3; 4] {
 
 /// Refuses NaN and infinities at the door.
 pub(crate) fn finite(what: &'static str, value: f64) -> Result<f64, Error> {
-    if value.is_finite() { Ok(value) } else { Err(Error::NotFinite { what, value }) }
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(Error::NotFinite { what, value })
+    }
 }
 
 /// Refuses vectors with NaN or infinite coordinates at the door.

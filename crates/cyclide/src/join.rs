@@ -59,8 +59,11 @@ pub fn join(cones: [&Cone; 2], circles: [&CurvatureCircle; 2]) -> Result<Joined,
         Err(error @ Error::NotACircleOfTheCone { .. }) => Err(error),
         Err(_) => {
             let blends = double_blends(cones, circles)?;
-            let best = blends.into_iter().min_by(|one, other| roughness(one).total_cmp(&roughness(other)));
-            best.map(|blend| Joined::Twice(Box::new(blend))).ok_or(Error::NoMiddleCone)
+            let best = blends
+                .into_iter()
+                .min_by(|one, other| roughness(one).total_cmp(&roughness(other)));
+            best.map(|blend| Joined::Twice(Box::new(blend)))
+                .ok_or(Error::NoMiddleCone)
         }
     }
 }
@@ -76,8 +79,16 @@ pub fn blend_through(cones: [&Cone; 2], circles: [&CurvatureCircle; 2]) -> Resul
     let mut mismatch = f64::INFINITY;
     for blend in found.blends_at_height(heights[0])? {
         let [_, contact] = blend.contacts();
-        let size = circles[1].radius.max(circles[0].radius).max(circles[0].centre.distance(circles[1].centre));
-        let miss = contact.circle.centre.distance(circles[1].centre).max((contact.circle.radius - circles[1].radius).abs()) / size;
+        let size = circles[1]
+            .radius
+            .max(circles[0].radius)
+            .max(circles[0].centre.distance(circles[1].centre));
+        let miss = contact
+            .circle
+            .centre
+            .distance(circles[1].centre)
+            .max((contact.circle.radius - circles[1].radius).abs())
+            / size;
         if miss <= tolerance::BLEND {
             return Ok(blend);
         }
@@ -92,32 +103,58 @@ pub fn blend_through(cones: [&Cone; 2], circles: [&CurvatureCircle; 2]) -> Resul
 /// # Errors
 ///
 /// [`Error::NotACircleOfTheCone`]; [`Error::NoMiddleCone`] if there is none.
-pub fn double_blends(cones: [&Cone; 2], circles: [&CurvatureCircle; 2]) -> Result<Vec<DoubleBlend>, Error> {
+pub fn double_blends(
+    cones: [&Cone; 2],
+    circles: [&CurvatureCircle; 2],
+) -> Result<Vec<DoubleBlend>, Error> {
     let heights = heights(cones, circles)?;
     let first = cones[0].spheres();
     let start = first.at(first.sphere_touching_at(heights[0]));
     let mut found = Vec::new();
     for reversed in [false, true] {
-        let second = if reversed { cones[1].spheres().reversed() } else { cones[1].spheres() };
+        let second = if reversed {
+            cones[1].spheres().reversed()
+        } else {
+            cones[1].spheres()
+        };
         let end = second.at(second.sphere_touching_at(heights[1]));
         for sign in [1.0, -1.0] {
-            for length in balanced_lengths(start, first.direction(), end, second.direction() * sign) {
-                found.extend(through_middle(cones, [start, end], [&first, &second], [length, -sign * length]));
+            for length in balanced_lengths(start, first.direction(), end, second.direction() * sign)
+            {
+                found.extend(through_middle(
+                    cones,
+                    [start, end],
+                    [&first, &second],
+                    [length, -sign * length],
+                ));
             }
         }
     }
-    if found.is_empty() { Err(Error::NoMiddleCone) } else { Ok(found) }
+    if found.is_empty() {
+        Err(Error::NoMiddleCone)
+    } else {
+        Ok(found)
+    }
 }
 
 /// Heights of the circles on their cones.
 fn heights(cones: [&Cone; 2], circles: [&CurvatureCircle; 2]) -> Result<[f64; 2], Error> {
     let height = |cone: &Cone, circle: &CurvatureCircle| {
-        let height = finite("circle centre", (circle.centre - cone.point()).dot(cone.axis()))?;
+        let height = finite(
+            "circle centre",
+            (circle.centre - cone.point()).dot(cone.axis()),
+        )?;
         let expected = cone.circle_at(height);
         let size = circle.radius.max(height.abs());
-        let deviation = (expected.centre.distance(circle.centre) + (expected.radius - circle.radius).abs()) / size
+        let deviation = (expected.centre.distance(circle.centre)
+            + (expected.radius - circle.radius).abs())
+            / size
             + expected.axis.cross(circle.axis).length();
-        if deviation <= tolerance::CLASS { Ok(height) } else { Err(Error::NotACircleOfTheCone { deviation }) }
+        if deviation <= tolerance::CLASS {
+            Ok(height)
+        } else {
+            Err(Error::NotACircleOfTheCone { deviation })
+        }
     };
     Ok([height(cones[0], circles[0])?, height(cones[1], circles[1])?])
 }
@@ -127,11 +164,19 @@ fn heights(cones: [&Cone; 2], circles: [&CurvatureCircle; 2]) -> Result<[f64; 2]
 fn balanced_lengths(start: Cycle, u: Cycle, end: Cycle, v: Cycle) -> Vec<f64> {
     let step = end - start;
     // quadratic l² + 2 half l - constant = 0
-    let (quadratic, half, constant) = (2.0 * (1.0 - u.product(v)), step.product(u + v), step.square());
+    let (quadratic, half, constant) = (
+        2.0 * (1.0 - u.product(v)),
+        step.product(u + v),
+        step.square(),
+    );
     let scale = step.centre.length_squared() + step.radius * step.radius;
     if quadratic.abs() <= tolerance::CLASS {
         let length = constant / (2.0 * half);
-        return if length.is_finite() && length.abs() <= scale.sqrt() / tolerance::CLASS { vec![length] } else { Vec::new() };
+        return if length.is_finite() && length.abs() <= scale.sqrt() / tolerance::CLASS {
+            vec![length]
+        } else {
+            Vec::new()
+        };
     }
     let discriminant = half * half + quadratic * constant;
     if discriminant < 0.0 {
@@ -139,31 +184,66 @@ fn balanced_lengths(start: Cycle, u: Cycle, end: Cycle, v: Cycle) -> Vec<f64> {
     }
     // Without cancellation.
     let sum = half + half.signum() * discriminant.sqrt();
-    [-sum / quadratic, constant / sum].into_iter().filter(|length| length.is_finite() && *length != 0.0).collect()
+    [-sum / quadratic, constant / sum]
+        .into_iter()
+        .filter(|length| length.is_finite() && *length != 0.0)
+        .collect()
 }
 
 /// The pair of blends with the given signed lengths along the two lines, if it can be used.
-fn through_middle(cones: [&Cone; 2], [start, end]: [Cycle; 2], [first, second]: [&SphereLine; 2], lengths: [f64; 2]) -> Option<DoubleBlend> {
-    let corners = [start + first.direction() * lengths[0], end + second.direction() * lengths[1]];
+fn through_middle(
+    cones: [&Cone; 2],
+    [start, end]: [Cycle; 2],
+    [first, second]: [&SphereLine; 2],
+    lengths: [f64; 2],
+) -> Option<DoubleBlend> {
+    let corners = [
+        start + first.direction() * lengths[0],
+        end + second.direction() * lengths[1],
+    ];
     let middle = Cone::through_spheres(corners[0], corners[1])?;
     let joint = (corners[0] + corners[1]) * 0.5;
-    let touching = |cone: &Cone, sphere: Cycle, other: &Cone, other_sphere: Cycle| -> Option<Blend> {
-        let circle = |cone: &Cone, sphere: Cycle| cone.spheres().contact_circle(oriented_like(cone, sphere));
-        blend_through([cone, other], [&circle(cone, sphere), &circle(other, other_sphere)]).ok()
-    };
+    let touching =
+        |cone: &Cone, sphere: Cycle, other: &Cone, other_sphere: Cycle| -> Option<Blend> {
+            let circle = |cone: &Cone, sphere: Cycle| {
+                cone.spheres().contact_circle(oriented_like(cone, sphere))
+            };
+            blend_through(
+                [cone, other],
+                [&circle(cone, sphere), &circle(other, other_sphere)],
+            )
+            .ok()
+        };
     let one = touching(cones[0], start, &middle, joint)?;
     let other = touching(&middle, joint, cones[1], end)?;
     // The tubes must leave the middle cone to different sides.
     let (one_tubes, other_tubes) = (one.tubes()?, other.tubes()?);
-    let flip = if middle.axis().dot(other.family().lines()[0].axis()) < 0.0 { -1 } else { 1 };
-    let flip = if middle.axis().dot(one.family().lines()[1].axis()) < 0.0 { -flip } else { flip };
+    let flip = if middle.axis().dot(other.family().lines()[0].axis()) < 0.0 {
+        -1
+    } else {
+        1
+    };
+    let flip = if middle.axis().dot(one.family().lines()[1].axis()) < 0.0 {
+        -flip
+    } else {
+        flip
+    };
     one_tubes
         .into_iter()
         .flat_map(|tube| other_tubes.into_iter().map(move |next| [tube, next]))
         .filter(|[tube, next]| tube.sides()[1] == -flip * next.sides()[0])
-        .filter(|tubes| tubes.iter().all(|tube| tube.is_smooth() && !tube.is_unbounded()))
+        .filter(|tubes| {
+            tubes
+                .iter()
+                .all(|tube| tube.is_smooth() && !tube.is_unbounded())
+        })
         .min_by(|one, other| tubes_span(one).total_cmp(&tubes_span(other)))
-        .map(|tubes| DoubleBlend { first: one, middle, second: other, tubes })
+        .map(|tubes| DoubleBlend {
+            first: one,
+            middle,
+            second: other,
+            tubes,
+        })
 }
 
 /// A sphere inscribed in a cone, with the sign of the radius that the cone gives it.
@@ -173,10 +253,17 @@ fn oriented_like(cone: &Cone, sphere: Cycle) -> Cycle {
 }
 
 fn tubes_span(tubes: &[Tube; 2]) -> f64 {
-    tubes.iter().flat_map(Tube::spans).map(|[from, to]| (to - from).abs()).sum()
+    tubes
+        .iter()
+        .flat_map(Tube::spans)
+        .map(|[from, to]| (to - from).abs())
+        .sum()
 }
 
 fn roughness(blend: &DoubleBlend) -> f64 {
-    let rings = [&blend.first, &blend.second].into_iter().filter(|blend| blend.kind().is_ring()).count();
+    let rings = [&blend.first, &blend.second]
+        .into_iter()
+        .filter(|blend| blend.kind().is_ring())
+        .count();
     tubes_span(&blend.tubes) + if rings == 2 { 0.0 } else { 100.0 }
 }

@@ -86,8 +86,15 @@ impl Kind {
     #[must_use]
     pub const fn singular_point_count(self) -> usize {
         match self {
-            Self::Ring | Self::RingTorus | Self::ParabolicRing | Self::DoubleSphere | Self::TwoSpheres => 0,
-            Self::SinglyHorned | Self::OneSingularitySpindle | Self::HornTorus | Self::ParabolicOneSingularity => 1,
+            Self::Ring
+            | Self::RingTorus
+            | Self::ParabolicRing
+            | Self::DoubleSphere
+            | Self::TwoSpheres => 0,
+            Self::SinglyHorned
+            | Self::OneSingularitySpindle
+            | Self::HornTorus
+            | Self::ParabolicOneSingularity => 1,
             _ => 2,
         }
     }
@@ -107,7 +114,10 @@ impl Kind {
     /// Whether the surface is cubic and contains two straight lines.
     #[must_use]
     pub const fn is_parabolic(self) -> bool {
-        matches!(self, Self::ParabolicRing | Self::ParabolicOneSingularity | Self::ParabolicTwoSingularities)
+        matches!(
+            self,
+            Self::ParabolicRing | Self::ParabolicOneSingularity | Self::ParabolicTwoSingularities
+        )
     }
 
     /// The name in lower case with hyphens, as in `two-singularity-spindle`.

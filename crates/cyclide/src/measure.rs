@@ -20,8 +20,12 @@ impl Dupin {
         let mut high = DVec3::NEG_INFINITY;
         for axis in DVec3::AXES {
             for normal in [axis, -axis] {
-                let [theta, psi] = surface.parameters_of_normal(surface.frame().vector_to_local(normal));
-                for point in [surface.point(theta, psi), surface.point(theta + PI, PI - psi)] {
+                let [theta, psi] =
+                    surface.parameters_of_normal(surface.frame().vector_to_local(normal));
+                for point in [
+                    surface.point(theta, psi),
+                    surface.point(theta + PI, PI - psi),
+                ] {
                     low = low.min(point);
                     high = high.max(point);
                 }
@@ -48,11 +52,19 @@ impl Dupin {
             Self::Quartic(surface) => surface.rectangle_area(first, second),
             Self::Parabolic(surface) => {
                 let (f, k) = (surface.f(), surface.k());
-                let zeros = |square: f64| if square > 0.0 { vec![square.sqrt(), -square.sqrt()] } else { Vec::new() };
+                let zeros = |square: f64| {
+                    if square > 0.0 {
+                        vec![square.sqrt(), -square.sqrt()]
+                    } else {
+                        Vec::new()
+                    }
+                };
                 let outer = pieces(first, &zeros(-k / f - 0.5));
                 let inner = pieces(second, &zeros(k / f - 0.5));
                 integrate(&outer, |u| {
-                    let strip = integrate(&inner, |v| surface.v_radius(v).abs() * 4.0 / (1.0 + u * u + v * v).powi(2));
+                    let strip = integrate(&inner, |v| {
+                        surface.v_radius(v).abs() * 4.0 / (1.0 + u * u + v * v).powi(2)
+                    });
                     surface.u_radius(u).abs() * strip
                 })
             }
@@ -79,7 +91,10 @@ impl Quartic {
         let theta_pieces = pieces(theta, &periodic_zeros(theta, mu / c));
         let psi_pieces = pieces(psi, &periodic_zeros(psi, a / mu));
         let area = integrate(&theta_pieces, |theta| {
-            let strip: f64 = psi_pieces.iter().map(|&piece| self.strip(theta, piece).abs()).sum();
+            let strip: f64 = psi_pieces
+                .iter()
+                .map(|&piece| self.strip(theta, piece).abs())
+                .sum();
             (mu - c * theta.cos()).abs() * strip
         });
         q * q * area
@@ -140,9 +155,23 @@ fn periodic_zeros([from, to]: [f64; 2], value: f64) -> Vec<f64> {
 /// A span cut at the given places, ascending, in steps of at most an eighth of a turn.
 fn pieces([from, to]: [f64; 2], cuts: &[f64]) -> Vec<[f64; 2]> {
     let (low, high) = (from.min(to), from.max(to));
-    let mut bounds: Vec<f64> = cuts.iter().copied().filter(|&cut| low < cut && cut < high).chain([low, high]).collect();
+    let mut bounds: Vec<f64> = cuts
+        .iter()
+        .copied()
+        .filter(|&cut| low < cut && cut < high)
+        .chain([low, high])
+        .collect();
     bounds.sort_by(f64::total_cmp);
-    bounds.windows(2).filter_map(|bound| if let &[from, to] = bound { Some([from, to]) } else { None }).collect()
+    bounds
+        .windows(2)
+        .filter_map(|bound| {
+            if let &[from, to] = bound {
+                Some([from, to])
+            } else {
+                None
+            }
+        })
+        .collect()
 }
 
 /// The integral of a function that is smooth on each piece: Gauss-Legendre with eight points, halved until it agrees with its halves.
@@ -162,7 +191,10 @@ fn integrate(pieces: &[[f64; 2]], function: impl Fn(f64) -> f64) -> f64 {
         if (sum - whole).abs() <= QUADRATURE * scale.max(sum.abs()) || depth >= 24 {
             total += sum;
         } else {
-            waiting.extend([(halves[0], values[0], depth + 1), (halves[1], values[1], depth + 1)]);
+            waiting.extend([
+                (halves[0], values[0], depth + 1),
+                (halves[1], values[1], depth + 1),
+            ]);
         }
     }
     total
@@ -178,7 +210,12 @@ const GAUSS: [(f64, f64); 4] = [
 
 fn gauss([from, to]: [f64; 2], function: &impl Fn(f64) -> f64) -> f64 {
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-    half * GAUSS.iter().map(|&(node, weight)| weight * (function(middle - half * node) + function(middle + half * node))).sum::<f64>()
+    half * GAUSS
+        .iter()
+        .map(|&(node, weight)| {
+            weight * (function(middle - half * node) + function(middle + half * node))
+        })
+        .sum::<f64>()
 }
 
 #[cfg(test)]
@@ -209,7 +246,11 @@ mod tests {
             for i in 0..steps {
                 for j in 0..steps {
                     let (theta, psi) = (step * f64::from(i), step * f64::from(j));
-                    flux += ring.point(theta, psi).dot(ring.normal(theta, psi)) * ring.area_density(theta, psi) * step * step / 3.0;
+                    flux += ring.point(theta, psi).dot(ring.normal(theta, psi))
+                        * ring.area_density(theta, psi)
+                        * step
+                        * step
+                        / 3.0;
                 }
             }
             let volume = ring.volume().unwrap();
@@ -221,20 +262,36 @@ mod tests {
 
     #[test]
     fn the_box_touches_sampled_points() {
-        let frame = Frame::from_directions(DVec3::new(1.0, -2.0, 0.5), DVec3::new(1.0, 2.0, 3.0), DVec3::Y).unwrap();
-        for (a, c, mu) in [(3.0, 1.0, 2.0), (3.0, 2.0, 1.0), (3.0, 1.0, 4.5), (3.0, 0.0, 1.0)] {
+        let frame = Frame::from_directions(
+            DVec3::new(1.0, -2.0, 0.5),
+            DVec3::new(1.0, 2.0, 3.0),
+            DVec3::Y,
+        )
+        .unwrap();
+        for (a, c, mu) in [
+            (3.0, 1.0, 2.0),
+            (3.0, 2.0, 1.0),
+            (3.0, 1.0, 4.5),
+            (3.0, 0.0, 1.0),
+        ] {
             let surface = Dupin::quartic(a, c, mu, frame).unwrap();
             let [low, high] = surface.bounding_box().unwrap();
             let (mut inner_low, mut inner_high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
             for i in 0..400 {
                 for j in 0..400 {
-                    let point = surface.point(f64::from(i) * TAU / 400.0, f64::from(j) * TAU / 400.0);
+                    let point =
+                        surface.point(f64::from(i) * TAU / 400.0, f64::from(j) * TAU / 400.0);
                     inner_low = inner_low.min(point);
                     inner_high = inner_high.max(point);
                 }
             }
-            assert!((low - inner_low).max_element() <= 1e-12 && (inner_high - high).max_element() <= 1e-12);
-            assert!((inner_low - low).max_element() < 2e-3 && (high - inner_high).max_element() < 2e-3);
+            assert!(
+                (low - inner_low).max_element() <= 1e-12
+                    && (inner_high - high).max_element() <= 1e-12
+            );
+            assert!(
+                (inner_low - low).max_element() < 2e-3 && (high - inner_high).max_element() < 2e-3
+            );
         }
     }
 }

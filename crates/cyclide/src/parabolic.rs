@@ -1,9 +1,9 @@
 //! The parabolic cyclides: cubic surfaces that pass through infinity and contain two straight lines.
 
+use crate::CurvatureCircle;
 use crate::frame::finite;
 use crate::{Error, Frame, Kind, tolerance};
 use glam::DVec3;
-use crate::CurvatureCircle;
 
 /// A parabolic (cubic) Dupin cyclide: focal parameter `f > 0`, offset `k`, and a rigid frame.
 ///
@@ -13,7 +13,11 @@ use crate::CurvatureCircle;
 ///
 /// The implicit polynomial is `(x - k) ((x + k)² - f²) + y² (x + k + f) + z² (x + k - f)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "ParabolicData", into = "ParabolicData"))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "ParabolicData", into = "ParabolicData")
+)]
 pub struct Parabolic {
     f: f64,
     k: f64,
@@ -73,7 +77,11 @@ impl Parabolic {
 
     /// All lengths multiplied by a positive factor, in the given frame.
     pub(crate) fn scaled_in(self, factor: f64, frame: Frame) -> Self {
-        Self { f: self.f * factor, k: self.k * factor, frame }
+        Self {
+            f: self.f * factor,
+            k: self.k * factor,
+            frame,
+        }
     }
 
     /// The same point set with `k >= 0`. For `k < 0` the symmetry `(x, y, z, k) -> (-x, z, y, -k)` turns the frame,
@@ -84,7 +92,11 @@ impl Parabolic {
             return *self;
         }
         let turned = Frame::from_directions(self.frame.origin(), -self.frame.x(), self.frame.z());
-        Self { f: self.f, k: -self.k, frame: turned.unwrap_or(self.frame) }
+        Self {
+            f: self.f,
+            k: -self.k,
+            frame: turned.unwrap_or(self.frame),
+        }
     }
 
     /// The parallel surface at signed distance `distance` along the normal: `k` grows by it, parameters stay.
@@ -135,7 +147,10 @@ impl Parabolic {
         let normal = Self::local_normal(u, v);
         let along_u = DVec3::new(u, 1.0, 0.0) + u * normal;
         let along_v = DVec3::new(-v, 0.0, 1.0) - v * normal;
-        [self.frame.vector_to_world(along_u), self.frame.vector_to_world(along_v)]
+        [
+            self.frame.vector_to_world(along_u),
+            self.frame.vector_to_world(along_v),
+        ]
     }
 
     /// The derivatives of [`Parabolic::point`] by `u` and `v`.
@@ -143,7 +158,10 @@ impl Parabolic {
     pub fn partials(&self, u: f64, v: f64) -> [DVec3; 2] {
         let [along_u, along_v] = self.principal_directions(u, v);
         let scale = 2.0 / (1.0 + u * u + v * v);
-        [-scale * self.v_radius(v) * along_u, scale * self.u_radius(u) * along_v]
+        [
+            -scale * self.v_radius(v) * along_u,
+            scale * self.u_radius(u) * along_v,
+        ]
     }
 
     /// Principal curvatures along `u` and along `v`, with `dN = kappa dP`. Infinite where the tangent sphere is a point.
@@ -157,13 +175,16 @@ impl Parabolic {
     pub fn implicit(&self, point: DVec3) -> f64 {
         let p = self.frame.point_to_local(point);
         let (f, k) = (self.f, self.k);
-        (p.x - k) * (p.x + k - f) * (p.x + k + f) + p.y * p.y * (p.x + k + f) + p.z * p.z * (p.x + k - f)
+        (p.x - k) * (p.x + k - f) * (p.x + k + f)
+            + p.y * p.y * (p.x + k + f)
+            + p.z * p.z * (p.x + k - f)
     }
 
     /// Gradient of [`Parabolic::implicit`], world coordinates.
     #[must_use]
     pub fn gradient(&self, point: DVec3) -> DVec3 {
-        self.frame.vector_to_world(self.local_gradient(self.frame.point_to_local(point), self.k))
+        self.frame
+            .vector_to_world(self.local_gradient(self.frame.point_to_local(point), self.k))
     }
 
     /// Gradient of the polynomial of the parallel surface with offset `k`.
@@ -177,7 +198,10 @@ impl Parabolic {
     #[must_use]
     pub fn parameters_at(&self, point: DVec3) -> [f64; 2] {
         let p = self.frame.point_to_local(point);
-        [-p.y / (p.x - self.f + self.k), p.z / (p.x + self.f + self.k)]
+        [
+            -p.y / (p.x - self.f + self.k),
+            p.z / (p.x + self.f + self.k),
+        ]
     }
 
     /// The real singular points, world coordinates: none, one or two.
@@ -197,7 +221,10 @@ impl Parabolic {
             }
             _ => Vec::new(),
         };
-        local.into_iter().map(|point| self.frame.point_to_world(point)).collect()
+        local
+            .into_iter()
+            .map(|point| self.frame.point_to_world(point))
+            .collect()
     }
 
     /// The line of curvature `u = const`, a circle for finite `u`.
@@ -206,7 +233,11 @@ impl Parabolic {
         let (radius, stretch) = (self.u_radius(u), 1.0 + u * u);
         let sphere_centre = DVec3::new(self.f * (u * u - 0.5), 2.0 * self.f * u, 0.0);
         let centre = sphere_centre - radius * u / stretch * DVec3::new(u, 1.0, 0.0);
-        self.circle(centre, radius.abs() / stretch.sqrt(), DVec3::new(u, 1.0, 0.0) / stretch.sqrt())
+        self.circle(
+            centre,
+            radius.abs() / stretch.sqrt(),
+            DVec3::new(u, 1.0, 0.0) / stretch.sqrt(),
+        )
     }
 
     /// The line of curvature `v = const`, a circle for finite `v`.
@@ -215,11 +246,19 @@ impl Parabolic {
         let (radius, stretch) = (self.v_radius(v), 1.0 + v * v);
         let sphere_centre = DVec3::new(self.f * (0.5 - v * v), 0.0, 2.0 * self.f * v);
         let centre = sphere_centre + radius * v / stretch * DVec3::new(-v, 0.0, 1.0);
-        self.circle(centre, radius.abs() / stretch.sqrt(), DVec3::new(-v, 0.0, 1.0) / stretch.sqrt())
+        self.circle(
+            centre,
+            radius.abs() / stretch.sqrt(),
+            DVec3::new(-v, 0.0, 1.0) / stretch.sqrt(),
+        )
     }
 
     fn circle(&self, centre: DVec3, radius: f64, axis: DVec3) -> CurvatureCircle {
-        CurvatureCircle { centre: self.frame.point_to_world(centre), radius, axis: self.frame.vector_to_world(axis) }
+        CurvatureCircle {
+            centre: self.frame.point_to_world(centre),
+            radius,
+            axis: self.frame.vector_to_world(axis),
+        }
     }
 }
 

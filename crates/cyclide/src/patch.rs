@@ -39,9 +39,18 @@ impl Dupin {
         };
         let frame = self.frame();
         let control = control.map(|row| {
-            row.map(|local| local.map_linear(|weighted| frame.vector_to_world(weighted)).translated(frame.origin()))
+            row.map(|local| {
+                local
+                    .map_linear(|weighted| frame.vector_to_world(weighted))
+                    .translated(frame.origin())
+            })
         });
-        Ok(CyclidePatch { surface: *self, first, second, net: Biquadratic::new(control)? })
+        Ok(CyclidePatch {
+            surface: *self,
+            first,
+            second,
+            net: Biquadratic::new(control)?,
+        })
     }
 
     /// Patches that cover a rectangle and have ordinary weights, all at least `margin` times the largest (`margin` is clamped to
@@ -51,17 +60,29 @@ impl Dupin {
     /// # Errors
     ///
     /// [`Error::NotFinite`]; [`Error::Span`], also for a rectangle with a corner at infinity, whose weight is zero.
-    pub fn positive_patches(&self, first: [f64; 2], second: [f64; 2], margin: f64) -> Result<Vec<CyclidePatch>, Error> {
+    pub fn positive_patches(
+        &self,
+        first: [f64; 2],
+        second: [f64; 2],
+        margin: f64,
+    ) -> Result<Vec<CyclidePatch>, Error> {
         let margin = finite("margin", margin)?.clamp(f64::MIN_POSITIVE, 0.5);
         let turning = self.as_quartic().is_some();
-        let longest = if turning { TAU * (1.0 + f64::EPSILON) } else { f64::INFINITY };
+        let longest = if turning {
+            TAU * (1.0 + f64::EPSILON)
+        } else {
+            f64::INFINITY
+        };
         for [from, to] in [first, second] {
             let short_enough = (to - from).abs() <= longest;
             if from == to || !short_enough {
                 return Err(Error::Span { from, to });
             }
         }
-        if let (Some(&from), Some(&to)) = (first.iter().find(|bound| bound.is_infinite()), second.iter().find(|bound| bound.is_infinite())) {
+        if let (Some(&from), Some(&to)) = (
+            first.iter().find(|bound| bound.is_infinite()),
+            second.iter().find(|bound| bound.is_infinite()),
+        ) {
             return Err(Error::Span { from, to });
         }
         // The line u = tan(angle) is halved by its angle, so that infinity is an ordinary bound.
@@ -76,7 +97,11 @@ impl Dupin {
         while let Some((first, second)) = waiting.pop() {
             // A span of a full turn is not one patch.
             let too_long = turning && length(first).max(length(second)) > 1.5 * PI;
-            let patch = if too_long { None } else { Some(self.patch(first, second)?).filter(|patch| patch.has_weights_above(margin)) };
+            let patch = if too_long {
+                None
+            } else {
+                Some(self.patch(first, second)?).filter(|patch| patch.has_weights_above(margin))
+            };
             match patch {
                 Some(patch) => found.push(patch),
                 // The weights of a patch tend to one another as its spans shrink, so this ends.
@@ -104,8 +129,15 @@ impl Dupin {
             Self::Quartic(_) => [0.0, TAU / 3.0, 2.0 * TAU / 3.0, TAU],
             Self::Parabolic(_) => [f64::NEG_INFINITY, -1.0, 1.0, f64::INFINITY],
         };
-        let spans = [[bounds[0], bounds[1]], [bounds[1], bounds[2]], [bounds[2], bounds[3]]];
-        spans.iter().flat_map(|&first| spans.iter().map(move |&second| self.patch(first, second))).collect()
+        let spans = [
+            [bounds[0], bounds[1]],
+            [bounds[1], bounds[2]],
+            [bounds[2], bounds[3]],
+        ];
+        spans
+            .iter()
+            .flat_map(|&first| spans.iter().map(move |&second| self.patch(first, second)))
+            .collect()
     }
 }
 
@@ -119,7 +151,11 @@ pub(crate) fn arc_rows([from, to]: [f64; 2]) -> Result<[Row; 3], Error> {
     }
     let ((sin_from, cos_from), (sin_to, cos_to)) = (from.sin_cos(), to.sin_cos());
     let (sin_middle, cos_middle) = (0.5 * (from + to)).sin_cos();
-    Ok([[1.0, cos_from, sin_from], [half.cos(), cos_middle, sin_middle], [1.0, cos_to, sin_to]])
+    Ok([
+        [1.0, cos_from, sin_from],
+        [half.cos(), cos_middle, sin_middle],
+        [1.0, cos_to, sin_to],
+    ])
 }
 
 /// Controls of `(1, u, u²)` over a span, by blossoming in homogeneous parameters.
@@ -133,10 +169,18 @@ pub(crate) fn line_rows([from, to]: [f64; 2]) -> Result<[Row; 3], Error> {
         return Err(Error::Span { from, to });
     }
     let ((s, u), (t, v)) = (homogeneous(from), homogeneous(to));
-    Ok([[s * s, s * u, u * u], [s * t, 0.5 * (s * v + t * u), u * v], [t * t, t * v, v * v]])
+    Ok([
+        [s * s, s * u, u * u],
+        [s * t, 0.5 * (s * v + t * u), u * v],
+        [t * t, t * v, v * v],
+    ])
 }
 
-fn tensor(rows: [Row; 3], columns: [Row; 3], control: impl Fn(Row, Row) -> MassPoint<DVec3>) -> [[MassPoint<DVec3>; 3]; 3] {
+fn tensor(
+    rows: [Row; 3],
+    columns: [Row; 3],
+    control: impl Fn(Row, Row) -> MassPoint<DVec3>,
+) -> [[MassPoint<DVec3>; 3]; 3] {
     rows.map(|row| columns.map(|column| control(row, column)))
 }
 
@@ -150,17 +194,21 @@ impl Quartic {
         } else {
             (1.0, self.minor_ratio(), self.eccentricity())
         };
-        tensor(rows, columns, |[one, cos, sin], [other_one, other_cos, other_sin]| {
-            let (ones, cosines) = (one * other_one, cos * other_cos);
-            MassPoint::from_homogeneous(
-                a * ones - c * cosines,
-                DVec3::new(
-                    mu * (c * ones - a * cosines) + self.b() * self.b() * cos * other_one,
-                    b * sin * (self.a() * other_one - mu * other_cos),
-                    b * other_sin * (self.c() * cos - mu * one),
-                ),
-            )
-        })
+        tensor(
+            rows,
+            columns,
+            |[one, cos, sin], [other_one, other_cos, other_sin]| {
+                let (ones, cosines) = (one * other_one, cos * other_cos);
+                MassPoint::from_homogeneous(
+                    a * ones - c * cosines,
+                    DVec3::new(
+                        mu * (c * ones - a * cosines) + self.b() * self.b() * cos * other_one,
+                        b * sin * (self.a() * other_one - mu * other_cos),
+                        b * other_sin * (self.c() * cos - mu * one),
+                    ),
+                )
+            },
+        )
     }
 }
 
@@ -218,8 +266,19 @@ impl CyclidePatch {
     /// Whether all nine weights have one sign and are at least `margin` times the largest.
     #[must_use]
     pub fn has_weights_above(&self, margin: f64) -> bool {
-        let weights = self.net.control().as_flattened().iter().map(|control| control.weight);
-        let largest = weights.clone().fold(0.0, |largest: f64, weight| if weight.abs() > largest.abs() { weight } else { largest });
+        let weights = self
+            .net
+            .control()
+            .as_flattened()
+            .iter()
+            .map(|control| control.weight);
+        let largest = weights.clone().fold(0.0, |largest: f64, weight| {
+            if weight.abs() > largest.abs() {
+                weight
+            } else {
+                largest
+            }
+        });
         weights.into_iter().all(|weight| weight / largest >= margin)
     }
 }
@@ -232,7 +291,12 @@ impl CyclidePatch {
 /// [`Error::CornerWeights`] unless the corner weights have one sign.
 pub fn normalise(net: &Biquadratic<DVec3>) -> Result<Biquadratic<DVec3>, Error> {
     let control = net.control();
-    let weights = [control[0][0].weight, control[0][2].weight, control[2][0].weight, control[2][2].weight];
+    let weights = [
+        control[0][0].weight,
+        control[0][2].weight,
+        control[2][0].weight,
+        control[2][2].weight,
+    ];
     let [corner, along_row, along_column, _] = weights;
     if !(weights.iter().all(|&weight| weight > 0.0) || weights.iter().all(|&weight| weight < 0.0)) {
         return Err(Error::CornerWeights { weights });
@@ -240,6 +304,7 @@ pub fn normalise(net: &Biquadratic<DVec3>) -> Result<Biquadratic<DVec3>, Error> 
     let (row_ratio, column_ratio) = ((corner / along_column).sqrt(), (corner / along_row).sqrt());
     let row_factors = [1.0, row_ratio, row_ratio * row_ratio];
     let column_factors = [1.0, column_ratio, column_ratio * column_ratio];
-    let scaled = [0, 1, 2].map(|i| [0, 1, 2].map(|j| control[i][j] * (row_factors[i] * column_factors[j] / corner)));
+    let scaled = [0, 1, 2]
+        .map(|i| [0, 1, 2].map(|j| control[i][j] * (row_factors[i] * column_factors[j] / corner)));
     Ok(Biquadratic::new(scaled)?)
 }

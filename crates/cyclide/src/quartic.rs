@@ -1,9 +1,9 @@
 //! The quartic cyclides: ring, horned, spindle, the three tori, and the sphere counted twice.
 
+use crate::CurvatureCircle;
 use crate::frame::finite;
 use crate::{Error, Frame, Kind, tolerance};
 use glam::DVec3;
-use crate::CurvatureCircle;
 
 /// A quartic Dupin cyclide in normal form: `a >= c >= 0`, `mu >= 0` and a rigid frame.
 ///
@@ -16,7 +16,11 @@ use crate::CurvatureCircle;
 ///
 /// Source: the two implicit equations are (3) and (4) of the paper on biquadratic patches, after Forsyth and Darboux.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "QuarticData", into = "QuarticData"))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "QuarticData", into = "QuarticData")
+)]
 pub struct Quartic {
     a: f64,
     c: f64,
@@ -68,21 +72,52 @@ impl Quartic {
             return Err(Error::TwoSpheres { a });
         }
         let b = ((a - c) * (a + c)).sqrt();
-        let shape = Self { a, c, mu: mu.abs(), b, eccentricity: c / a, minor_ratio: b / a, frame };
-        Ok(if mu < 0.0 { Self { frame: frame.turned_about_y(), ..shape } } else { shape })
+        let shape = Self {
+            a,
+            c,
+            mu: mu.abs(),
+            b,
+            eccentricity: c / a,
+            minor_ratio: b / a,
+            frame,
+        };
+        Ok(if mu < 0.0 {
+            Self {
+                frame: frame.turned_about_y(),
+                ..shape
+            }
+        } else {
+            shape
+        })
     }
 
     /// From both half axes and `c`, all computed: `b` is not recovered from `a` and `c`, which would lose digits near
     /// `c = a`. A negative `mu` is normalised as in [`Quartic::new`].
-    pub(crate) fn with_half_axes([a, b, c]: [f64; 3], mu: f64, frame: Frame) -> Result<Self, Error> {
+    pub(crate) fn with_half_axes(
+        [a, b, c]: [f64; 3],
+        mu: f64,
+        frame: Frame,
+    ) -> Result<Self, Error> {
         for (what, value) in [("a", a), ("b", b), ("c", c), ("mu", mu)] {
             finite(what, value)?;
         }
         if !(b > 0.0 && a >= b) {
             return Err(Error::QuarticParameters { a, c });
         }
-        let frame = if mu < 0.0 { frame.turned_about_y() } else { frame };
-        Ok(Self { a, c, mu: mu.abs(), b, eccentricity: c / a, minor_ratio: b / a, frame })
+        let frame = if mu < 0.0 {
+            frame.turned_about_y()
+        } else {
+            frame
+        };
+        Ok(Self {
+            a,
+            c,
+            mu: mu.abs(),
+            b,
+            eccentricity: c / a,
+            minor_ratio: b / a,
+            frame,
+        })
     }
 
     /// The torus whose tube of radius `mu` follows a circle of radius `a` about the frame's `z` axis.
@@ -110,9 +145,21 @@ impl Quartic {
         if !(0.0..1.0 - tolerance::EXACT_KIND).contains(&e) {
             return Err(Error::NetEccentricity { e });
         }
-        let frame = if mu < 0.0 { frame.turned_about_y() } else { frame };
+        let frame = if mu < 0.0 {
+            frame.turned_about_y()
+        } else {
+            frame
+        };
         let minor_ratio = ((1.0 - e) * (1.0 + e)).sqrt();
-        Ok(Self { a: 0.0, c: 0.0, mu: mu.abs(), b: 0.0, eccentricity: e, minor_ratio, frame })
+        Ok(Self {
+            a: 0.0,
+            c: 0.0,
+            mu: mu.abs(),
+            b: 0.0,
+            eccentricity: e,
+            minor_ratio,
+            frame,
+        })
     }
 
     /// Half the long axis of the ellipse of centres; the larger radius of a torus.
@@ -176,7 +223,14 @@ impl Quartic {
 
     /// All lengths multiplied by a positive factor, in the given frame.
     pub(crate) fn scaled_in(self, factor: f64, frame: Frame) -> Self {
-        Self { a: self.a * factor, b: self.b * factor, c: self.c * factor, mu: self.mu * factor, frame, ..self }
+        Self {
+            a: self.a * factor,
+            b: self.b * factor,
+            c: self.c * factor,
+            mu: self.mu * factor,
+            frame,
+            ..self
+        }
     }
 
     /// The parallel surface at signed distance `distance` along the normal: again a cyclide with the same frame, `a` and
@@ -191,15 +245,30 @@ impl Quartic {
         if self.a == 0.0 {
             return Self::double_sphere(mu, self.eccentricity, self.frame);
         }
-        let frame = if mu < 0.0 { self.frame.turned_about_y() } else { self.frame };
-        Ok(Self { mu: mu.abs(), frame, ..*self })
+        let frame = if mu < 0.0 {
+            self.frame.turned_about_y()
+        } else {
+            self.frame
+        };
+        Ok(Self {
+            mu: mu.abs(),
+            frame,
+            ..*self
+        })
     }
 
     fn angles(&self, theta: f64, psi: f64) -> Angles {
         let (sin_theta, cos_theta) = theta.sin_cos();
         let (sin_psi, cos_psi) = psi.sin_cos();
         let product = cos_theta * cos_psi;
-        Angles { cos_theta, sin_theta, cos_psi, sin_psi, product, denominator: 1.0 - self.eccentricity * product }
+        Angles {
+            cos_theta,
+            sin_theta,
+            cos_psi,
+            sin_psi,
+            product,
+            denominator: 1.0 - self.eccentricity * product,
+        }
     }
 
     /// The point at `(theta, psi)`, both with period `2 pi`; world coordinates.
@@ -218,12 +287,17 @@ impl Quartic {
     /// The unit normal at `(theta, psi)`, defined at singular points too (as the normal of the parametrisation).
     #[must_use]
     pub fn normal(&self, theta: f64, psi: f64) -> DVec3 {
-        self.frame.vector_to_world(self.local_normal(&self.angles(theta, psi)))
+        self.frame
+            .vector_to_world(self.local_normal(&self.angles(theta, psi)))
     }
 
     fn local_normal(&self, at: &Angles) -> DVec3 {
         let (e, q) = (self.eccentricity, self.minor_ratio);
-        DVec3::new(e - at.product, -q * at.sin_theta * at.cos_psi, -q * at.sin_psi) / at.denominator
+        DVec3::new(
+            e - at.product,
+            -q * at.sin_theta * at.cos_psi,
+            -q * at.sin_psi,
+        ) / at.denominator
     }
 
     /// Unit tangents of the two lines of curvature through `(theta, psi)`: first along growing `theta` (where
@@ -235,11 +309,19 @@ impl Quartic {
         let (e, q) = (self.eccentricity, self.minor_ratio);
         let numerator = self.local_normal(&at) * at.denominator;
         // N_theta / cos psi and N_psi, each of length q / denominator.
-        let along_theta = DVec3::new(at.sin_theta, -q * at.cos_theta, 0.0) * at.denominator - e * at.sin_theta * numerator;
-        let along_psi = DVec3::new(at.cos_theta * at.sin_psi, q * at.sin_theta * at.sin_psi, -q * at.cos_psi) * at.denominator
+        let along_theta = DVec3::new(at.sin_theta, -q * at.cos_theta, 0.0) * at.denominator
+            - e * at.sin_theta * numerator;
+        let along_psi = DVec3::new(
+            at.cos_theta * at.sin_psi,
+            q * at.sin_theta * at.sin_psi,
+            -q * at.cos_psi,
+        ) * at.denominator
             - e * at.cos_theta * at.sin_psi * numerator;
         let scale = 1.0 / (q * at.denominator);
-        [-scale * self.frame.vector_to_world(along_theta), scale * self.frame.vector_to_world(along_psi)]
+        [
+            -scale * self.frame.vector_to_world(along_theta),
+            scale * self.frame.vector_to_world(along_psi),
+        ]
     }
 
     /// The derivatives of [`Quartic::point`] by `theta` and `psi`.
@@ -248,14 +330,20 @@ impl Quartic {
         let [along_theta, along_psi] = self.principal_directions(theta, psi);
         let at = self.angles(theta, psi);
         let scale = self.minor_ratio / at.denominator;
-        [scale * (self.a - self.mu * at.cos_psi) * along_theta, scale * (self.mu - self.c * at.cos_theta) * along_psi]
+        [
+            scale * (self.a - self.mu * at.cos_psi) * along_theta,
+            scale * (self.mu - self.c * at.cos_theta) * along_psi,
+        ]
     }
 
     /// Principal curvatures along `theta` and along `psi`, with `dN = kappa dP`: positive where the surface bends away
     /// from the normal. Infinite where the tangent sphere is a point.
     #[must_use]
     pub fn principal_curvatures(&self, theta: f64, psi: f64) -> [f64; 2] {
-        [psi.cos() / (self.mu * psi.cos() - self.a), 1.0 / (self.mu - self.c * theta.cos())]
+        [
+            psi.cos() / (self.mu * psi.cos() - self.a),
+            1.0 / (self.mu - self.c * theta.cos()),
+        ]
     }
 
     /// Both printed forms of the implicit polynomial at a world point: (3) and (4) of the biquadratic paper. They are the
@@ -282,13 +370,19 @@ impl Quartic {
     /// Gradient of [`Quartic::implicit`], world coordinates. It vanishes at singular points, and on the double sphere.
     #[must_use]
     pub fn gradient(&self, point: DVec3) -> DVec3 {
-        self.frame.vector_to_world(self.local_gradient(self.frame.point_to_local(point), self.mu))
+        self.frame
+            .vector_to_world(self.local_gradient(self.frame.point_to_local(point), self.mu))
     }
 
     /// Gradient of the polynomial of the parallel surface with mean radius `mu`.
     pub(crate) fn local_gradient(&self, p: DVec3, mu: f64) -> DVec3 {
         let square = p.length_squared() - mu * mu + self.b * self.b;
-        4.0 * square * p - DVec3::new(8.0 * self.a * (self.a * p.x - self.c * mu), 8.0 * self.b * self.b * p.y, 0.0)
+        4.0 * square * p
+            - DVec3::new(
+                8.0 * self.a * (self.a * p.x - self.c * mu),
+                8.0 * self.b * self.b * p.y,
+                0.0,
+            )
     }
 
     /// The parameters `[theta, psi]`, each in `(-pi, pi]`, of a point of the surface. For a point beside the surface the
@@ -320,7 +414,10 @@ impl Quartic {
         let product = (e - normal.x) / denominator;
         let cos_psi_sin_theta = -q * normal.y / denominator;
         let sin_psi = -q * normal.z / denominator;
-        [cos_psi_sin_theta.atan2(product), sin_psi.atan2(product.hypot(cos_psi_sin_theta))]
+        [
+            cos_psi_sin_theta.atan2(product),
+            sin_psi.atan2(product.hypot(cos_psi_sin_theta)),
+        ]
     }
 
     /// The real singular points, world coordinates: none, one or two.
@@ -329,15 +426,22 @@ impl Quartic {
         let (a, b, c, mu) = (self.a, self.b, self.c, self.mu);
         let pair = |point: DVec3, axis: DVec3| vec![point + axis, point - axis];
         let local = match self.kind() {
-            Kind::DoublyHorned => pair(DVec3::X * (a * mu / c), DVec3::Y * (b * ((1.0 - mu / c) * (1.0 + mu / c)).sqrt())),
+            Kind::DoublyHorned => pair(
+                DVec3::X * (a * mu / c),
+                DVec3::Y * (b * ((1.0 - mu / c) * (1.0 + mu / c)).sqrt()),
+            ),
             Kind::SinglyHorned => vec![DVec3::X * a],
             Kind::OneSingularitySpindle | Kind::HornTorus => vec![DVec3::X * c],
-            Kind::TwoSingularitySpindle | Kind::SpindleTorus => {
-                pair(DVec3::X * (c * mu / a), DVec3::Z * (b * ((mu / a - 1.0) * (mu / a + 1.0)).sqrt()))
-            }
+            Kind::TwoSingularitySpindle | Kind::SpindleTorus => pair(
+                DVec3::X * (c * mu / a),
+                DVec3::Z * (b * ((mu / a - 1.0) * (mu / a + 1.0)).sqrt()),
+            ),
             _ => Vec::new(),
         };
-        local.into_iter().map(|point| self.frame.point_to_world(point)).collect()
+        local
+            .into_iter()
+            .map(|point| self.frame.point_to_world(point))
+            .collect()
     }
 
     /// The line of curvature `theta = const`: a circle about a tangent of the ellipse of centres.
@@ -348,7 +452,11 @@ impl Quartic {
         let speed_squared = q * q + e * e * sin * sin;
         let radius = self.mu - self.c * cos;
         let slide = radius * e * sin / speed_squared;
-        let centre = DVec3::new(self.a * cos + slide * sin, self.b * sin - slide * q * cos, 0.0);
+        let centre = DVec3::new(
+            self.a * cos + slide * sin,
+            self.b * sin - slide * q * cos,
+            0.0,
+        );
         let axis = DVec3::new(-sin, q * cos, 0.0) / speed_squared.sqrt();
         self.circle(centre, radius.abs() * q / speed_squared.sqrt(), axis)
     }
@@ -366,11 +474,19 @@ impl Quartic {
             q * sin * (self.c * e * cos - self.mu),
         ) / speed_squared;
         let axis = DVec3::new(e * sin, 0.0, -q) / speed_squared.sqrt();
-        self.circle(centre, (self.mu * cos - self.a).abs() * q / speed_squared.sqrt(), axis)
+        self.circle(
+            centre,
+            (self.mu * cos - self.a).abs() * q / speed_squared.sqrt(),
+            axis,
+        )
     }
 
     fn circle(&self, centre: DVec3, radius: f64, axis: DVec3) -> CurvatureCircle {
-        CurvatureCircle { centre: self.frame.point_to_world(centre), radius, axis: self.frame.vector_to_world(axis) }
+        CurvatureCircle {
+            centre: self.frame.point_to_world(centre),
+            radius,
+            axis: self.frame.vector_to_world(axis),
+        }
     }
 }
 
@@ -399,7 +515,20 @@ impl TryFrom<QuarticData> for Quartic {
 #[cfg(feature = "serde")]
 impl From<Quartic> for QuarticData {
     fn from(surface: Quartic) -> Self {
-        let Quartic { a, c, mu, eccentricity, frame, .. } = surface;
-        Self { a, c, mu, eccentricity, frame }
+        let Quartic {
+            a,
+            c,
+            mu,
+            eccentricity,
+            frame,
+            ..
+        } = surface;
+        Self {
+            a,
+            c,
+            mu,
+            eccentricity,
+            frame,
+        }
     }
 }

@@ -21,6 +21,7 @@ pub struct RayHit {
 
 /// The intersections with one line, ascending: at most four, stored in place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RayHits {
     hits: [RayHit; 4],
     len: usize,
@@ -70,7 +71,10 @@ impl RayCaster {
     /// A caster for one surface.
     #[must_use]
     pub const fn new(surface: Dupin) -> Self {
-        Self { surface, solver: Solver::new() }
+        Self {
+            surface,
+            solver: Solver::new(),
+        }
     }
 
     /// The surface.
@@ -92,10 +96,17 @@ impl RayCaster {
             return Err(Error::Direction);
         }
         let frame = self.surface.frame();
-        let (origin, direction) = (frame.point_to_local(origin), frame.vector_to_local(direction) / length);
+        let (origin, direction) = (
+            frame.point_to_local(origin),
+            frame.vector_to_local(direction) / length,
+        );
         let mut hits = match &self.surface {
-            Dupin::Quartic(surface) => surface.intersect_local(&mut self.solver, origin, direction)?,
-            Dupin::Parabolic(surface) => surface.intersect_local(&mut self.solver, origin, direction)?,
+            Dupin::Quartic(surface) => {
+                surface.intersect_local(&mut self.solver, origin, direction)?
+            }
+            Dupin::Parabolic(surface) => {
+                surface.intersect_local(&mut self.solver, origin, direction)?
+            }
         };
         for hit in &mut hits.hits {
             hit.s /= length;
@@ -131,13 +142,44 @@ impl Dupin {
     }
 }
 
+impl Dupin {
+    /// The intersections with many lines, given as origin and direction; on all cores with the feature `rayon`. Each line has its own result.
+    #[must_use]
+    pub fn intersect_all(&self, lines: &[(DVec3, DVec3)]) -> Vec<Result<RayHits, Error>> {
+        #[cfg(feature = "rayon")]
+        {
+            use rayon::prelude::*;
+            lines
+                .par_iter()
+                .map_init(
+                    || RayCaster::new(*self),
+                    |caster, &(origin, direction)| caster.intersect(origin, direction),
+                )
+                .collect()
+        }
+        #[cfg(not(feature = "rayon"))]
+        {
+            let mut caster = RayCaster::new(*self);
+            lines
+                .iter()
+                .map(|&(origin, direction)| caster.intersect(origin, direction))
+                .collect()
+        }
+    }
+}
+
 impl Quartic {
     /// The surface lies in the sphere about `(-c, 0, 0)` that touches it along `psi = pi`, or a concentric one around the larger horn.
     pub(crate) fn enclosing_radius(&self) -> f64 {
         (self.a() + self.mu()).max(self.a() + 2.0 * self.c() - self.mu())
     }
 
-    fn intersect_local(&self, solver: &mut Solver, origin: DVec3, direction: DVec3) -> Result<RayHits, Error> {
+    fn intersect_local(
+        &self,
+        solver: &mut Solver,
+        origin: DVec3,
+        direction: DVec3,
+    ) -> Result<RayHits, Error> {
         let centre = DVec3::new(-self.c(), 0.0, 0.0);
         let start = (centre - origin).dot(direction);
         let nearest = origin + start * direction;
@@ -153,8 +195,16 @@ impl Quartic {
             // The sphere counted twice: every intersection is double.
             let multiplicity = if reach == 0.0 { 4 } else { 2 };
             let error = f64::EPSILON * (start.abs() + radius);
-            for s in if reach == 0.0 { vec![start] } else { vec![start - reach.sqrt(), start + reach.sqrt()] } {
-                hits.push(RayHit { s, error, multiplicity });
+            for s in if reach == 0.0 {
+                vec![start]
+            } else {
+                vec![start - reach.sqrt(), start + reach.sqrt()]
+            } {
+                hits.push(RayHit {
+                    s,
+                    error,
+                    multiplicity,
+                });
             }
             return Ok(hits);
         }
@@ -184,7 +234,12 @@ impl Quartic {
 }
 
 impl Parabolic {
-    fn intersect_local(&self, solver: &mut Solver, origin: DVec3, direction: DVec3) -> Result<RayHits, Error> {
+    fn intersect_local(
+        &self,
+        solver: &mut Solver,
+        origin: DVec3,
+        direction: DVec3,
+    ) -> Result<RayHits, Error> {
         let start = -origin.dot(direction);
         let p = origin + start * direction;
         let size = self.f() + self.k().abs() + p.length();
@@ -202,7 +257,12 @@ impl Parabolic {
         let whole = Interval::try_new(-1.0, 1.0)?;
         let mut far = [RayHit::default(); 3];
         let mut far_len = 0;
-        for (slot, root) in far.iter_mut().zip(solver.roots_on(&outside, whole)?.iter().filter(|root| root.value().abs() < 1.0 && root.value() != 0.0)) {
+        for (slot, root) in far.iter_mut().zip(
+            solver
+                .roots_on(&outside, whole)?
+                .iter()
+                .filter(|root| root.value().abs() < 1.0 && root.value() != 0.0),
+        ) {
             let s = 1.0 / root.value();
             *slot = hit_at(root, s, s * s);
             far_len += 1;
@@ -224,41 +284,71 @@ impl Parabolic {
     /// Coefficients of the cubic along a line, in ascending powers, all lengths divided by `size`.
     fn along(&self, p: DVec3, d: DVec3, size: f64) -> [f64; 4] {
         let (f, k) = (self.f() / size, self.k() / size);
-        let product = |[a0, a1, a2]: [f64; 3], [b0, b1]: [f64; 2]| [a0 * b0, a0 * b1 + a1 * b0, a1 * b1 + a2 * b0, a2 * b1];
+        let product = |[a0, a1, a2]: [f64; 3], [b0, b1]: [f64; 2]| {
+            [a0 * b0, a0 * b1 + a1 * b0, a1 * b1 + a2 * b0, a2 * b1]
+        };
         let square = |q: f64, rate: f64| [q * q, 2.0 * q * rate, rate * rate];
         let (near, far) = ([p.x + k - f, d.x], [p.x + k + f, d.x]);
         let [y, z] = [square(p.y, d.y), square(p.z, d.z)];
         let both = product([near[0], near[1], 0.0], far);
-        let terms = [product([both[0], both[1], both[2]], [p.x - k, d.x]), product(y, far), product(z, near)];
+        let terms = [
+            product([both[0], both[1], both[2]], [p.x - k, d.x]),
+            product(y, far),
+            product(z, near),
+        ];
         [0, 1, 2, 3].map(|power| terms[0][power] + terms[1][power] + terms[2][power])
     }
 }
 
 fn hit(root: &Root) -> RayHit {
-    RayHit { s: root.value(), error: 0.5 * root.width(), multiplicity: root.multiplicity().unwrap_or(0) }
+    RayHit {
+        s: root.value(),
+        error: 0.5 * root.width(),
+        multiplicity: root.multiplicity().unwrap_or(0),
+    }
 }
 
 /// The next number with eight bits, so that data with few digits keep exact coefficients and a tangent line its double root. It is a little
 /// beyond, and no root sits at the end of the interval by rounding.
 fn rounded_up(half: f64) -> f64 {
     let unit = 2_f64.powi(half.log2().floor() as i32 - 7);
-    if unit > 0.0 { (half / unit).ceil() * unit } else { half }
+    if unit > 0.0 {
+        (half / unit).ceil() * unit
+    } else {
+        half
+    }
 }
 
 /// Three times the Bernstein coefficients on `[-half, half]` of a polynomial in ascending powers: the blossom at the ends, and nothing is
 /// divided by three.
 fn bernstein_from_monomial_quartic([c0, c1, c2, c3, c4]: [f64; 5], half: f64) -> [f64; 5] {
     let square = half * half;
-    let (c1, c2, c3, c4) = (c1 * half, c2 * square, c3 * square * half, c4 * square * square);
+    let (c1, c2, c3, c4) = (
+        c1 * half,
+        c2 * square,
+        c3 * square * half,
+        c4 * square * square,
+    );
     let (even, odd) = (c0 + c2 + c4, c1 + c3);
     let (inner_even, inner_odd) = (c0 - c4, 0.5 * (c1 - c3));
     let middle = 3.0 * (c0 + c4) - c2;
-    [3.0 * (even - odd), 3.0 * (inner_even - inner_odd), middle, 3.0 * (inner_even + inner_odd), 3.0 * (even + odd)]
+    [
+        3.0 * (even - odd),
+        3.0 * (inner_even - inner_odd),
+        middle,
+        3.0 * (inner_even + inner_odd),
+        3.0 * (even + odd),
+    ]
 }
 
 /// The same for a cubic on `[-1, 1]`.
 fn bernstein_from_monomial_cubic([c0, c1, c2, c3]: [f64; 4]) -> [f64; 4] {
     let (even, odd) = (3.0 * (c0 + c2), 3.0 * (c1 + c3));
     let (inner_even, inner_odd) = (3.0 * c0 - c2, c1 - 3.0 * c3);
-    [even - odd, inner_even - inner_odd, inner_even + inner_odd, even + odd]
+    [
+        even - odd,
+        inner_even - inner_odd,
+        inner_even + inner_odd,
+        even + odd,
+    ]
 }

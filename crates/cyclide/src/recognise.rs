@@ -88,7 +88,11 @@ impl NetReport {
         for (condition, residual) in self.residuals() {
             // Written so that a residual that is not a number fails.
             if !(residual <= allowed) {
-                return Err(Error::NotAPatch { condition, residual, allowed });
+                return Err(Error::NotAPatch {
+                    condition,
+                    residual,
+                    allowed,
+                });
             }
         }
         Ok(())
@@ -107,17 +111,23 @@ pub fn inspect(net: &Biquadratic<DVec3>) -> Result<NetReport, Error> {
     let mut points = [[DVec3::ZERO; 3]; 3];
     for (row, controls) in points.iter_mut().zip(net.control()) {
         for (point, control) in row.iter_mut().zip(controls) {
-            *point = control.position().ok_or(Error::Mass(bezier_mass::Error::NonFinite { what: "control point of the net" }))?;
+            *point = control
+                .position()
+                .ok_or(Error::Mass(bezier_mass::Error::NonFinite {
+                    what: "control point of the net",
+                }))?;
         }
     }
     let weights = net.control().map(|row| row.map(|control| control.weight));
-    let [concyclic_corners, equal_edges, right_angles, corner_planes] = geometric_residuals(&points);
+    let [concyclic_corners, equal_edges, right_angles, corner_planes] =
+        geometric_residuals(&points);
 
     let fourth = fourth_corner_weight(&points);
     let root = weights[2][2].abs().sqrt();
     let cosines = edge_cosines(&points);
     let given = [weights[0][1], weights[1][0], weights[2][1], weights[1][2]];
-    let edge_weights = [0, 1, 2, 3].map(|edge| (given[edge].abs() - cosines[edge] * if edge < 2 { 1.0 } else { root }).abs());
+    let edge_weights = [0, 1, 2, 3]
+        .map(|edge| (given[edge].abs() - cosines[edge] * if edge < 2 { 1.0 } else { root }).abs());
     // The signs of the edges agree with each other if all corners give the same central weight.
     let central_weight = CORNERS.map(|corner| {
         let central = central_weight(&points, &weights, corner);
@@ -158,7 +168,11 @@ pub fn solve_weights(points: &[[DVec3; 3]; 3]) -> Result<Biquadratic<DVec3>, Err
     let fourth = finite("weight w22", fourth_corner_weight(points))?;
     let root = fourth.sqrt();
     let [row, column, far_row, far_column] = edge_cosines(points);
-    let mut weights = [[1.0, row, 1.0], [column, 0.0, root * far_column], [1.0, root * far_row, fourth]];
+    let mut weights = [
+        [1.0, row, 1.0],
+        [column, 0.0, root * far_column],
+        [1.0, root * far_row, fourth],
+    ];
     weights[1][1] = finite("weight w11", central_weight(points, &weights, (0, 0)))?;
     // On a patch of nearly half a turn one edge can be a longer arc where the opposite one is a shorter: the corners must agree on w11.
     if central_weight(points, &weights, (0, 2)) * weights[1][1] < 0.0 {
@@ -167,7 +181,8 @@ pub fn solve_weights(points: &[[DVec3; 3]; 3]) -> Result<Biquadratic<DVec3>, Err
     if central_weight(points, &weights, (2, 0)) * weights[1][1] < 0.0 {
         weights[2][1] = -weights[2][1];
     }
-    let control = [0, 1, 2].map(|i| [0, 1, 2].map(|j| MassPoint::point(points[i][j], weights[i][j])));
+    let control =
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j| MassPoint::point(points[i][j], weights[i][j])));
     Ok(Biquadratic::new(control)?)
 }
 
@@ -179,7 +194,12 @@ fn arc_weight([start, middle, end]: [DVec3; 3]) -> f64 {
 /// The arc weights of row 0, column 0, row 2, column 2.
 fn edge_cosines(points: &[[DVec3; 3]; 3]) -> [f64; 4] {
     let column = |j: usize| [points[0][j], points[1][j], points[2][j]];
-    [arc_weight(points[0]), arc_weight(column(0)), arc_weight(points[2]), arc_weight(column(2))]
+    [
+        arc_weight(points[0]),
+        arc_weight(column(0)),
+        arc_weight(points[2]),
+        arc_weight(column(2)),
+    ]
 }
 
 /// Ueda's weight: for any weights on four concyclic points, `w00 w22 |P00 P22|² = w02 w20 |P02 P20|²`.
@@ -192,9 +212,17 @@ const CORNERS: [(usize, usize); 4] = [(0, 0), (0, 2), (2, 0), (2, 2)];
 
 /// `w11` from the affine coordinates of `P11` in the tangent plane of a corner and the weights there. The bisector condition of the paper is
 /// empty for every torus and for symmetric patches; this local one is not.
-fn central_weight(points: &[[DVec3; 3]; 3], weights: &[[f64; 3]; 3], (i, j): (usize, usize)) -> f64 {
+fn central_weight(
+    points: &[[DVec3; 3]; 3],
+    weights: &[[f64; 3]; 3],
+    (i, j): (usize, usize),
+) -> f64 {
     let corner = points[i][j];
-    let (along_row, along_column, central) = (points[i][1] - corner, points[1][j] - corner, points[1][1] - corner);
+    let (along_row, along_column, central) = (
+        points[i][1] - corner,
+        points[1][j] - corner,
+        points[1][1] - corner,
+    );
     let lambda = central.dot(along_row) / along_row.length_squared();
     let nu = central.dot(along_column) / along_column.length_squared();
     weights[i][1] * weights[1][j] * (lambda + nu - 1.0) / (weights[i][j] * lambda * nu)
@@ -203,26 +231,51 @@ fn central_weight(points: &[[DVec3; 3]; 3], weights: &[[f64; 3]; 3], (i, j): (us
 /// Residuals of PG1 to PG4.
 fn geometric_residuals(points: &[[DVec3; 3]; 3]) -> [f64; 4] {
     let flat = points.as_flattened();
-    let (low, high) = flat.iter().fold((flat[0], flat[0]), |(low, high), &point| (low.min(point), high.max(point)));
+    let (low, high) = flat.iter().fold((flat[0], flat[0]), |(low, high), &point| {
+        (low.min(point), high.max(point))
+    });
     let size = high.distance(low);
     let column = |j: usize| [points[0][j], points[1][j], points[2][j]];
     let edges = [points[0], points[2], column(0), column(2)];
-    let equal_edges = worst(edges.map(|[start, middle, end]| (start.distance(middle) - middle.distance(end)).abs() / size));
+    let equal_edges =
+        worst(edges.map(|[start, middle, end]| {
+            (start.distance(middle) - middle.distance(end)).abs() / size
+        }));
     let corners = CORNERS.map(|(i, j)| {
         let corner = points[i][j];
-        (points[i][1] - corner, points[1][j] - corner, points[1][1] - corner)
+        (
+            points[i][1] - corner,
+            points[1][j] - corner,
+            points[1][1] - corner,
+        )
     });
-    let right_angles = worst(corners.map(|(row, column, _)| row.dot(column).abs() / (row.length() * column.length())));
+    let right_angles = worst(
+        corners.map(|(row, column, _)| row.dot(column).abs() / (row.length() * column.length())),
+    );
     let corner_planes = worst(corners.map(|(row, column, central)| {
         let normal = row.cross(column);
         (central.dot(normal) / normal.length()).abs() / size
     }));
-    [concyclicity([points[0][0], points[0][2], points[2][2], points[2][0]], size), equal_edges, right_angles, corner_planes]
+    [
+        concyclicity(
+            [points[0][0], points[0][2], points[2][2], points[2][0]],
+            size,
+        ),
+        equal_edges,
+        right_angles,
+        corner_planes,
+    ]
 }
 
 /// The largest of four residuals; not a number if one of them is none.
 fn worst(residuals: [f64; 4]) -> f64 {
-    residuals.into_iter().fold(0.0, |worst, residual| if residual > worst || residual.is_nan() { residual } else { worst })
+    residuals.into_iter().fold(0.0, |worst, residual| {
+        if residual > worst || residual.is_nan() {
+            residual
+        } else {
+            worst
+        }
+    })
 }
 
 /// How far four points are from one circle or line, relative to `size`.
@@ -231,7 +284,10 @@ fn concyclicity(corners: [DVec3; 4], size: f64) -> f64 {
     // The largest triangle carries the circle.
     let triangles = [(a, b, c, d), (b, c, d, a), (c, d, a, b), (d, a, b, c)];
     let area = |&(p, q, r, _): &(DVec3, DVec3, DVec3, DVec3)| (q - p).cross(r - p).length();
-    let Some(&(p, q, r, fourth)) = triangles.iter().max_by(|s, t| area(s).total_cmp(&area(t))) else { return f64::INFINITY };
+    let Some(&(p, q, r, fourth)) = triangles.iter().max_by(|s, t| area(s).total_cmp(&area(t)))
+    else {
+        return f64::INFINITY;
+    };
     let (to_q, to_r) = (q - p, r - p);
     let normal = to_q.cross(to_r);
     if normal.length() <= tolerance::NET * size * size {

@@ -33,7 +33,9 @@ impl Family {
     pub fn ring_blend(&self, preference: RingPreference) -> Result<Blend, Error> {
         let shape = self.shape();
         let candidates = match preference {
-            RingPreference::ContactAtHeight(height) => vec![self.parameter_at_height(finite("height", height)?)],
+            RingPreference::ContactAtHeight(height) => {
+                vec![self.parameter_at_height(finite("height", height)?)]
+            }
             RingPreference::Widest => self.widest(&shape),
             RingPreference::SmallestCurvature { reach } => {
                 let reach = finite("reach", reach)?.abs();
@@ -48,8 +50,13 @@ impl Family {
             }
         };
         let mut best: Option<((bool, f64), Blend)> = None;
-        let mut failure = Error::NoRing { kind: self.kind_at(candidates.first().copied().unwrap_or(1.0)) };
-        for parameter in candidates.into_iter().filter(|&parameter| self.kind_at(parameter).is_ring()) {
+        let mut failure = Error::NoRing {
+            kind: self.kind_at(candidates.first().copied().unwrap_or(1.0)),
+        };
+        for parameter in candidates
+            .into_iter()
+            .filter(|&parameter| self.kind_at(parameter).is_ring())
+        {
             match self.blend(parameter) {
                 Ok(blend) => {
                     let clearance = self.clearance(&shape, parameter);
@@ -79,16 +86,30 @@ impl Family {
             };
         }
         let [middle, opposite] = self.ring_parameters();
-        middle.into_iter().chain(opposite).chain(self.beside_infinity(shape)).collect()
+        middle
+            .into_iter()
+            .chain(opposite)
+            .chain(self.beside_infinity(shape))
+            .collect()
     }
 
     /// A stand-in for a middle that lies at infinity on the diagonal: half way to the end of its interval.
     fn beside_infinity(&self, shape: &Shape) -> Vec<f64> {
-        if self.ring_parameters().iter().all(Option::is_some) || !matches!(self.structure, Structure::Meet { .. }) {
+        if self.ring_parameters().iter().all(Option::is_some)
+            || !matches!(self.structure, Structure::Meet { .. })
+        {
             return Vec::new();
         }
-        let width = if self.conic == Conic::Parabola { 0.5 } else { 0.5 * (shape.outer - shape.inner) };
-        [0.5, -0.5].map(|share| shape.slope / (share * width)).into_iter().filter(|t| t.is_finite()).collect()
+        let width = if self.conic == Conic::Parabola {
+            0.5
+        } else {
+            0.5 * (shape.outer - shape.inner)
+        };
+        [0.5, -0.5]
+            .map(|share| shape.slope / (share * width))
+            .into_iter()
+            .filter(|t| t.is_finite())
+            .collect()
     }
 
     /// The smaller of `mu - c` and `a - mu` (of `f/2 - |k|` for a cubic), per `|t|`: negative off the rings.
@@ -98,13 +119,19 @@ impl Family {
             Structure::Parallel { .. } => parameter,
         };
         let mean = (shape.slope * coordinate + shape.offset).abs();
-        if self.conic == Conic::Parabola { shape.outer - mean } else { (mean - shape.inner).min(shape.outer - mean) }
+        if self.conic == Conic::Parabola {
+            shape.outer - mean
+        } else {
+            (mean - shape.inner).min(shape.outer - mean)
+        }
     }
 
     /// Whether the family contains ring cyclides. It does in every class but that of a common vertex, where it depends on the angles.
     #[must_use]
     pub fn has_rings(&self) -> bool {
-        self.intervals().iter().any(|interval| interval.kind.is_ring())
+        self.intervals()
+            .iter()
+            .any(|interval| interval.kind.is_ring())
     }
 
     /// The only type in the family, if there is but one (a common vertex, parallel cylinders).

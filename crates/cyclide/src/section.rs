@@ -27,15 +27,20 @@ impl Family {
     ///
     /// [`Error::Mass`] only where a control point overflows.
     pub fn section(&self) -> Result<Option<Section>, Error> {
-        let Some(diagonal) = self.diagonal() else { return Ok(None) };
+        let Some(diagonal) = self.diagonal() else {
+            return Ok(None);
+        };
         let normal = diagonal.direction.cross(self.plane_normal);
         let line = &self.lines[0];
         // The plane as a linear form on mass points about the diagonal's point.
-        let form = |h: MassPoint<DVec3>| normal.dot(h.weighted) - normal.dot(diagonal.point) * h.weight;
+        let form =
+            |h: MassPoint<DVec3>| normal.dot(h.weighted) - normal.dot(diagonal.point) * h.weight;
         let apex = apex(line);
         let height = form(apex);
         let reach = apex.weighted.length().max(apex.weight.abs());
-        if apex.weight != 0.0 && height.abs() <= crate::tolerance::CLASS * self.size.max(f64::EPSILON * reach) {
+        if apex.weight != 0.0
+            && height.abs() <= crate::tolerance::CLASS * self.size.max(f64::EPSILON * reach)
+        {
             return Ok(Some(self.rulings_in(normal, apex.weighted / apex.weight)));
         }
         let across = self.plane_normal.cross(line.axis);
@@ -43,11 +48,12 @@ impl Family {
         let circle = line.contact_circle(base);
         // Half circles as quadratics with a vector in the middle; each ruling meets the plane in form(base) apex - form(apex) base.
         let half = |side: f64| -> Result<Quadratic<DVec3>, Error> {
-            let controls = [(1.0, side, 0.0), (0.0, 0.0, side), (1.0, -side, 0.0)].map(|(one, cos, sin)| {
-                let offset = circle.radius * (cos * across + sin * self.plane_normal);
-                let on_base = MassPoint::from_homogeneous(one, one * circle.centre + offset);
-                apex * form(on_base) - on_base * height
-            });
+            let controls =
+                [(1.0, side, 0.0), (0.0, 0.0, side), (1.0, -side, 0.0)].map(|(one, cos, sin)| {
+                    let offset = circle.radius * (cos * across + sin * self.plane_normal);
+                    let on_base = MassPoint::from_homogeneous(one, one * circle.centre + offset);
+                    apex * form(on_base) - on_base * height
+                });
             Ok(Quadratic::new(controls)?)
         };
         Ok(Some(Section::Conic([half(1.0)?, half(-1.0)?])))
@@ -59,7 +65,9 @@ impl Family {
         let across = self.plane_normal.cross(line.axis);
         let (sin, cos) = (line.sin.abs(), line.cos);
         let cosine = -normal.dot(line.axis) * cos / (sin * normal.dot(across));
-        let ruling = |cosine: f64, sine: f64| cos * line.axis + sin * (cosine * across + sine * self.plane_normal);
+        let ruling = |cosine: f64, sine: f64| {
+            cos * line.axis + sin * (cosine * across + sine * self.plane_normal)
+        };
         let directions = if (cosine.abs() - 1.0).abs() <= crate::tolerance::CLASS {
             vec![ruling(cosine.signum(), 0.0)]
         } else if cosine.abs() < 1.0 {

@@ -58,8 +58,16 @@ impl Quartic {
     #[must_use]
     pub fn psi_sphere_homogeneous(&self, psi: f64) -> (f64, Cycle) {
         let (sin, cos) = psi.sin_cos();
-        let centre = self.frame().vector_to_world(DVec3::new(self.c(), 0.0, -self.b() * sin));
-        (cos, Cycle::new(cos * self.frame().origin() + centre, self.mu() * cos - self.a()))
+        let centre = self
+            .frame()
+            .vector_to_world(DVec3::new(self.c(), 0.0, -self.b() * sin));
+        (
+            cos,
+            Cycle::new(
+                cos * self.frame().origin() + centre,
+                self.mu() * cos - self.a(),
+            ),
+        )
     }
 }
 
@@ -72,7 +80,12 @@ impl Parabolic {
 
     pub(crate) fn moving_u_sphere(&self, u: f64) -> MovingSphere {
         let f = self.f();
-        self.moving(DVec3::new(f * (u * u - 0.5), 2.0 * f * u, 0.0), self.u_radius(u), DVec3::new(u, 1.0, 0.0), u)
+        self.moving(
+            DVec3::new(f * (u * u - 0.5), 2.0 * f * u, 0.0),
+            self.u_radius(u),
+            DVec3::new(u, 1.0, 0.0),
+            u,
+        )
     }
 
     /// The sphere that touches the surface along the circle `v = const`.
@@ -83,7 +96,12 @@ impl Parabolic {
 
     pub(crate) fn moving_v_sphere(&self, v: f64) -> MovingSphere {
         let f = self.f();
-        self.moving(DVec3::new(f * (0.5 - v * v), 0.0, 2.0 * f * v), self.v_radius(v), DVec3::new(-v, 0.0, 1.0), -v)
+        self.moving(
+            DVec3::new(f * (0.5 - v * v), 0.0, 2.0 * f * v),
+            self.v_radius(v),
+            DVec3::new(-v, 0.0, 1.0),
+            -v,
+        )
     }
 
     fn moving(&self, centre: DVec3, radius: f64, direction: DVec3, rate: f64) -> MovingSphere {

@@ -18,7 +18,10 @@ use glam::DVec3;
 ///
 /// [`Error::NoParallelEdges`] if no pair of opposite edges lies on coaxial circles in parallel planes; [`Error::CornerWeights`];
 /// [`Error::NetResidual`] if the net rebuilt from the result differs.
-pub fn convert_torus(net: &Biquadratic<DVec3>, hint: Option<[DVec3; 2]>) -> Result<Conversion, Error> {
+pub fn convert_torus(
+    net: &Biquadratic<DVec3>,
+    hint: Option<[DVec3; 2]>,
+) -> Result<Conversion, Error> {
     let scaled = Scaled::new(net)?;
     let attempts = [edges(scaled.net()), edges(&scaled.net().transposed())];
     let deviation = |edges: &Option<Edges>| edges.map_or(f64::INFINITY, |edges| edges.deviation);
@@ -26,7 +29,11 @@ pub fn convert_torus(net: &Biquadratic<DVec3>, hint: Option<[DVec3; 2]>) -> Resu
     let (edges, rows_follow_first) = match attempts {
         [Some(edges), _] if edges.deviation <= tolerance::NET => (edges, false),
         [_, Some(edges)] if edges.deviation <= tolerance::NET => (edges, true),
-        _ => return Err(Error::NoParallelEdges { deviation: deviation(&attempts[0]).min(deviation(&attempts[1])) }),
+        _ => {
+            return Err(Error::NoParallelEdges {
+                deviation: deviation(&attempts[0]).min(deviation(&attempts[1])),
+            });
+        }
     };
     let offset = edges.meridian.centre - edges.parallel.centre;
     let centre = edges.parallel.centre + offset.dot(edges.parallel.axis) * edges.parallel.axis;
@@ -45,8 +52,11 @@ pub fn convert_torus(net: &Biquadratic<DVec3>, hint: Option<[DVec3; 2]>) -> Resu
         None if is_sphere => -towards_net,
         None => outward,
     };
-    let frame = Frame::from_directions(centre, x - x.dot(z) * z, z.cross(x))
-        .ok_or(Error::NotDetermined { reason: "the hint for x is parallel to the axis" })?;
+    let frame = Frame::from_directions(centre, x - x.dot(z) * z, z.cross(x)).ok_or(
+        Error::NotDetermined {
+            reason: "the hint for x is parallel to the axis",
+        },
+    )?;
     let surface = Quartic::new(a, 0.0, edges.meridian.radius, frame)?;
     let found = match hint {
         // The caller's frame stays as it is, even if theta falls.
@@ -54,7 +64,10 @@ pub fn convert_torus(net: &Biquadratic<DVec3>, hint: Option<[DVec3; 2]>) -> Resu
         None => scaled.read_off(surface.into(), rows_follow_first)?,
     };
     if found.residual > tolerance::REBUILT_NET {
-        return Err(Error::NetResidual { residual: found.residual, allowed: tolerance::REBUILT_NET });
+        return Err(Error::NetResidual {
+            residual: found.residual,
+            allowed: tolerance::REBUILT_NET,
+        });
     }
     Ok(scaled.in_world(found))
 }
@@ -81,17 +94,36 @@ struct EdgeCircle {
 
 fn edges(net: &Biquadratic<DVec3>) -> Option<Edges> {
     let control = net.control();
-    let parallel = edge_circle(control[0].map(|mass_point| mass_point.weighted), control[0].map(|mass_point| mass_point.weight))?;
-    let opposite = edge_circle(control[2].map(|mass_point| mass_point.weighted), control[2].map(|mass_point| mass_point.weight))?;
+    let parallel = edge_circle(
+        control[0].map(|mass_point| mass_point.weighted),
+        control[0].map(|mass_point| mass_point.weight),
+    )?;
+    let opposite = edge_circle(
+        control[2].map(|mass_point| mass_point.weighted),
+        control[2].map(|mass_point| mass_point.weight),
+    )?;
     let column = [control[0][0], control[1][0], control[2][0]];
-    let meridian = edge_circle(column.map(|mass_point| mass_point.weighted), column.map(|mass_point| mass_point.weight))?;
+    let meridian = edge_circle(
+        column.map(|mass_point| mass_point.weighted),
+        column.map(|mass_point| mass_point.weight),
+    )?;
     let tilt = parallel.axis.cross(opposite.axis).length();
-    let shift = (opposite.centre - parallel.centre).cross(parallel.axis).length();
-    Some(Edges { parallel, meridian, start: control[0][0].position()?, deviation: tilt.max(shift) })
+    let shift = (opposite.centre - parallel.centre)
+        .cross(parallel.axis)
+        .length();
+    Some(Edges {
+        parallel,
+        meridian,
+        start: control[0][0].position()?,
+        deviation: tilt.max(shift),
+    })
 }
 
 /// The circle of a rational quadratic arc: its centre is on the bisector of the chord, where the radius is orthogonal to the tangent.
-fn edge_circle([first, middle, last]: [DVec3; 3], [weight, middle_weight, last_weight]: [f64; 3]) -> Option<EdgeCircle> {
+fn edge_circle(
+    [first, middle, last]: [DVec3; 3],
+    [weight, middle_weight, last_weight]: [f64; 3],
+) -> Option<EdgeCircle> {
     let (start, end) = (first / weight, last / last_weight);
     let chord = end - start;
     // Weighted tangent at the start, defined for a middle control at infinity too.
@@ -99,5 +131,9 @@ fn edge_circle([first, middle, last]: [DVec3; 3], [weight, middle_weight, last_w
     let axis = tangent.cross(chord).try_normalize()?;
     let inward = axis.cross(tangent);
     let radius = chord.length_squared() / (2.0 * chord.dot(inward));
-    radius.is_finite().then_some(EdgeCircle { centre: start + radius * inward, radius: radius.abs(), axis })
+    radius.is_finite().then_some(EdgeCircle {
+        centre: start + radius * inward,
+        radius: radius.abs(),
+        axis,
+    })
 }

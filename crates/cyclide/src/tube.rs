@@ -30,7 +30,11 @@ impl Blend {
         let forward: [i8; 2] = [(from, -1.0), (to, 1.0)].map(|(parameter, sign)| {
             let [first, second] = self.family().lines();
             let axis = if sign < 0.0 { first.axis } else { second.axis };
-            if sign * self.velocity(parameter).dot(axis) > 0.0 { 1 } else { -1 }
+            if sign * self.velocity(parameter).dot(axis) > 0.0 {
+                1
+            } else {
+                -1
+            }
         });
         let backward = forward.map(|side| -side);
         let tube = |growing: bool, sides| Tube {
@@ -58,7 +62,9 @@ impl Blend {
             (Dupin::Quartic(surface), ContactFamily::Theta) => {
                 DVec3::new(-surface.b() * sin, surface.a() * cos + surface.c(), 0.0)
             }
-            (Dupin::Quartic(surface), _) => DVec3::new(-surface.b() * sin, 0.0, -(surface.a() * cos + surface.c())),
+            (Dupin::Quartic(surface), _) => {
+                DVec3::new(-surface.b() * sin, 0.0, -(surface.a() * cos + surface.c()))
+            }
             (Dupin::Parabolic(_), ContactFamily::U) => DVec3::Y,
             (Dupin::Parabolic(_), _) => DVec3::Z,
         };
@@ -98,7 +104,11 @@ impl Tube {
             }
             Dupin::Parabolic(_) if (from < to) == self.growing => vec![[from, to]],
             Dupin::Parabolic(_) => {
-                let far = if self.growing { f64::INFINITY } else { f64::NEG_INFINITY };
+                let far = if self.growing {
+                    f64::INFINITY
+                } else {
+                    f64::NEG_INFINITY
+                };
                 vec![[from, far], [-far, to]]
             }
         }
@@ -131,10 +141,16 @@ impl Tube {
         let turning = self.surface.as_quartic().is_some();
         let inside = |[from, to]: [f64; 2], parameter: f64| {
             let (low, high) = (from.min(to), from.max(to));
-            let parameter = if turning { low + (parameter - low).rem_euclid(TAU) } else { parameter };
+            let parameter = if turning {
+                low + (parameter - low).rem_euclid(TAU)
+            } else {
+                parameter
+            };
             low <= parameter && parameter <= high
         };
-        self.spans().into_iter().all(|span| collapsed.iter().all(|&parameter| !inside(span, parameter)))
+        self.spans()
+            .into_iter()
+            .all(|span| collapsed.iter().all(|&parameter| !inside(span, parameter)))
     }
 
     /// Patches that cover the tube: three around each of two or more steps along it. Their controls are mass points; see
@@ -183,7 +199,11 @@ impl Tube {
             Dupin::Quartic(_) => [0.0, TAU / 3.0, 2.0 * TAU / 3.0, TAU],
             Dupin::Parabolic(_) => [f64::NEG_INFINITY, -1.0, 1.0, f64::INFINITY],
         };
-        [[bounds[0], bounds[1]], [bounds[1], bounds[2]], [bounds[2], bounds[3]]]
+        [
+            [bounds[0], bounds[1]],
+            [bounds[1], bounds[2]],
+            [bounds[2], bounds[3]],
+        ]
     }
 
     fn in_order<T>(&self, along: T, around: T) -> (T, T) {

@@ -22,7 +22,11 @@ impl Quartic {
         let plane = cos * a * c / DVec3::new(cos * mu, sin * root_c, -root_a).length();
         let centre = sphere_centre - (normal.dot(sphere_centre) - plane) * normal;
         let radius = b * ((a + sign * c * sin) / (a - sign * c * sin)).sqrt();
-        Ok(Circle::new(self.frame().point_to_world(centre), radius, self.frame().vector_to_world(normal))?)
+        Ok(Circle::new(
+            self.frame().point_to_world(centre),
+            radius,
+            self.frame().vector_to_world(normal),
+        )?)
     }
 
     /// The two Villarceau circles through a point of the surface, one of each sign.
@@ -42,8 +46,15 @@ impl Quartic {
         let around = y.atan2(x);
         // Both planes through the point carry a circle of each sign; one of them passes through the point.
         let nearest = |sign: f64| -> Result<Circle, Error> {
-            let [one, other] = [self.villarceau_circle(around + turn, sign)?, self.villarceau_circle(around - turn, sign)?];
-            Ok(if one.distance(point) <= other.distance(point) { one } else { other })
+            let [one, other] = [
+                self.villarceau_circle(around + turn, sign)?,
+                self.villarceau_circle(around - turn, sign)?,
+            ];
+            Ok(if one.distance(point) <= other.distance(point) {
+                one
+            } else {
+                other
+            })
         };
         Ok([nearest(1.0)?, nearest(-1.0)?])
     }
@@ -52,7 +63,11 @@ impl Quartic {
         if matches!(self.kind(), Kind::Ring | Kind::RingTorus) {
             Ok(())
         } else {
-            Err(Error::NotARing { a: self.a(), c: self.c(), mu: self.mu() })
+            Err(Error::NotARing {
+                a: self.a(),
+                c: self.c(),
+                mu: self.mu(),
+            })
         }
     }
 
@@ -61,6 +76,11 @@ impl Quartic {
     #[must_use]
     pub fn principal_circles(&self) -> [CurvatureCircle; 4] {
         use std::f64::consts::PI;
-        [self.psi_circle(0.0), self.psi_circle(PI), self.theta_circle(0.0), self.theta_circle(PI)]
+        [
+            self.psi_circle(0.0),
+            self.psi_circle(PI),
+            self.theta_circle(0.0),
+            self.theta_circle(PI),
+        ]
     }
 }

@@ -4,7 +4,9 @@ mod common;
 use bezier_mass::{Biquadratic, MassPoint};
 use common::pairs::Random;
 use cyclide::glam::DVec3;
-use cyclide::{Dupin, Error, Frame, Kind, convert, convert_torus, inspect, patch_from_corners, solve_weights};
+use cyclide::{
+    Dupin, Error, Frame, Kind, convert, convert_torus, inspect, patch_from_corners, solve_weights,
+};
 
 const PATCHES: u32 = 10_000;
 
@@ -18,7 +20,11 @@ fn frame(random: &mut Random, scale: f64) -> Frame {
 fn quartic(random: &mut Random) -> Dupin {
     let scale = 10_f64.powf(random.between(-3.0, 3.0));
     let a = scale * random.between(0.5, 3.0);
-    let c = if random.unit() < 0.1 { 0.0 } else { a * random.between(0.001, 0.999) };
+    let c = if random.unit() < 0.1 {
+        0.0
+    } else {
+        a * random.between(0.001, 0.999)
+    };
     let mu = scale * random.between(0.05, 5.0);
     Dupin::quartic(a, c, mu, frame(random, scale)).unwrap()
 }
@@ -37,22 +43,33 @@ fn disguised(net: Biquadratic<DVec3>, random: &mut Random) -> Biquadratic<DVec3>
     if random.unit() < 0.5 {
         net = net.reversed_u();
     }
-    let (l, r, all) = (random.between(0.3, 3.0), random.between(0.3, 3.0), random.sign() * random.between(0.1, 10.0));
+    let (l, r, all) = (
+        random.between(0.3, 3.0),
+        random.between(0.3, 3.0),
+        random.sign() * random.between(0.1, 10.0),
+    );
     let control = net.control();
     let powers = |ratio: f64| [1.0, ratio, ratio * ratio];
-    Biquadratic::new([0, 1, 2].map(|i| [0, 1, 2].map(|j| control[i][j] * (all * powers(l)[i] * powers(r)[j])))).unwrap()
+    Biquadratic::new(
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j| control[i][j] * (all * powers(l)[i] * powers(r)[j]))),
+    )
+    .unwrap()
 }
 
 /// Whether the patch stays clear of singular points, where a tangent sphere shrinks to a point.
 fn is_clear(surface: &Dupin, first: [f64; 2], second: [f64; 2]) -> bool {
     let at = |[from, to]: [f64; 2], i: u32| from + (to - from) * f64::from(i) / 24.0;
-    let size = surface.as_quartic().map_or(1.0, |quartic| quartic.a().max(quartic.mu()));
+    let size = surface
+        .as_quartic()
+        .map_or(1.0, |quartic| quartic.a().max(quartic.mu()));
     let signs = |radius: &dyn Fn(u32) -> f64| {
         let values: Vec<f64> = (0..=24).map(radius).collect();
-        values.iter().all(|value| *value > 0.02 * size) || values.iter().all(|value| *value < -0.02 * size)
+        values.iter().all(|value| *value > 0.02 * size)
+            || values.iter().all(|value| *value < -0.02 * size)
     };
     let quartic = *surface.as_quartic().unwrap();
-    signs(&|i| quartic.mu() - quartic.c() * at(first, i).cos()) && signs(&|i| quartic.a() - quartic.mu() * at(second, i).cos())
+    signs(&|i| quartic.mu() - quartic.c() * at(first, i).cos())
+        && signs(&|i| quartic.a() - quartic.mu() * at(second, i).cos())
 }
 
 #[test]
@@ -72,14 +89,30 @@ fn random_patches_come_back() {
             continue;
         }
         tested += 1;
-        let found = convert(&net).unwrap_or_else(|error| panic!("{tested}: {error} for {surface:?} {first:?} {second:?}"));
+        let found = convert(&net).unwrap_or_else(|error| {
+            panic!("{tested}: {error} for {surface:?} {first:?} {second:?}")
+        });
         worst = worst.max(found.residual);
-        let (one, other) = (surface.as_quartic().unwrap(), found.surface.as_quartic().unwrap());
+        let (one, other) = (
+            surface.as_quartic().unwrap(),
+            found.surface.as_quartic().unwrap(),
+        );
         let size = one.a().max(one.mu());
-        let parameters = [one.a() - other.a(), one.c() - other.c(), one.mu() - other.mu()];
-        assert!(parameters.iter().all(|difference| difference.abs() < 1e-5 * size), "{surface:?} {found:?}");
+        let parameters = [
+            one.a() - other.a(),
+            one.c() - other.c(),
+            one.mu() - other.mu(),
+        ];
+        assert!(
+            parameters
+                .iter()
+                .all(|difference| difference.abs() < 1e-5 * size),
+            "{surface:?} {found:?}"
+        );
     }
-    println!("worst residual {worst:.1e}; {singular} patches through or near singular points beside");
+    println!(
+        "worst residual {worst:.1e}; {singular} patches through or near singular points beside"
+    );
     assert!(worst < 1e-8);
 }
 
@@ -95,18 +128,31 @@ fn parabolic_and_spherical_patches_come_back() {
             let f = scale * random.between(0.3, 2.0);
             Dupin::parabolic(f, f * random.between(-0.45, 0.9), frame).unwrap()
         } else {
-            cyclide::Quartic::double_sphere(scale * random.between(0.5, 2.0), random.between(0.0, 0.9), frame).unwrap().into()
+            cyclide::Quartic::double_sphere(
+                scale * random.between(0.5, 2.0),
+                random.between(0.0, 0.9),
+                frame,
+            )
+            .unwrap()
+            .into()
         };
         let patch = if index % 2 == 0 {
             let (u, v) = (random.between(-1.0, 0.5), random.between(0.8, 1.4));
-            surface.patch([u, u + random.between(0.3, 1.0)], [v, v + random.between(0.3, 1.0)])
+            surface.patch(
+                [u, u + random.between(0.3, 1.0)],
+                [v, v + random.between(0.3, 1.0)],
+            )
         } else {
             // Away from the poles, where circles shrink.
             let psi = random.between(-1.0, 0.3);
             let theta = random.between(0.0, 6.0);
-            surface.patch([theta, theta + random.between(0.3, 3.0)], [psi, psi + random.between(0.2, 1.0)])
+            surface.patch(
+                [theta, theta + random.between(0.3, 3.0)],
+                [psi, psi + random.between(0.2, 1.0)],
+            )
         };
-        let found = convert(&disguised(*patch.unwrap().net(), &mut random)).unwrap_or_else(|error| panic!("{index}: {error}, {surface:?}"));
+        let found = convert(&disguised(*patch.unwrap().net(), &mut random))
+            .unwrap_or_else(|error| panic!("{index}: {error}, {surface:?}"));
         assert_eq!(found.kind().is_parabolic(), index % 2 == 0);
         worst = worst.max(found.residual);
     }
@@ -123,18 +169,37 @@ fn solved_weights_are_those_of_the_surface() {
         if !is_clear(&surface, first, second) {
             continue;
         }
-        let net = surface.patch(first, second).unwrap().normalised_net().unwrap();
+        let net = surface
+            .patch(first, second)
+            .unwrap()
+            .normalised_net()
+            .unwrap();
         let control = net.control();
-        if control.as_flattened().iter().any(|mass_point| mass_point.weight.abs() < 0.05) {
+        if control
+            .as_flattened()
+            .iter()
+            .any(|mass_point| mass_point.weight.abs() < 0.05)
+        {
             continue;
         }
         let report = inspect(&net).unwrap();
         // Accuracy is relative to the net; near infinity a weight is a difference of large coordinates.
-        assert!(report.check().is_ok(), "{report:?} {surface:?} {first:?} {second:?}");
+        assert!(
+            report.check().is_ok(),
+            "{report:?} {surface:?} {first:?} {second:?}"
+        );
         let points = control.map(|row| row.map(|mass_point| mass_point.position().unwrap()));
         let solved = solve_weights(&points).unwrap();
-        for (solved, control) in solved.control().as_flattened().iter().zip(control.as_flattened()) {
-            assert!((solved.weight.abs() - control.weight.abs()).abs() < 1e-7 * control.weight.abs().max(1.0));
+        for (solved, control) in solved
+            .control()
+            .as_flattened()
+            .iter()
+            .zip(control.as_flattened())
+        {
+            assert!(
+                (solved.weight.abs() - control.weight.abs()).abs()
+                    < 1e-7 * control.weight.abs().max(1.0)
+            );
         }
     }
 }
@@ -145,7 +210,10 @@ fn corners_with_a_frame_make_a_patch_that_converts() {
     let mut made = 0;
     for _ in 0..1000 {
         let (centre, axis) = (random.direction(), random.direction());
-        let (u, v) = (axis.any_orthonormal_vector(), axis.cross(axis.any_orthonormal_vector()));
+        let (u, v) = (
+            axis.any_orthonormal_vector(),
+            axis.cross(axis.any_orthonormal_vector()),
+        );
         let mut angles = [0; 4].map(|_| random.between(0.0, 6.28));
         angles.sort_by(f64::total_cmp);
         if (1..4).any(|i| angles[i] - angles[i - 1] < 0.4) || angles[3] - angles[0] > 5.8 {
@@ -161,7 +229,11 @@ fn corners_with_a_frame_make_a_patch_that_converts() {
                 match convert(&net) {
                     Ok(found) => assert!(found.residual < 1e-8),
                     // A patch may run through a singular point, where it has no normal.
-                    Err(Error::NetResidual { .. } | Error::NoNormal { .. } | Error::CornerWeights { .. }) => {}
+                    Err(
+                        Error::NetResidual { .. }
+                        | Error::NoNormal { .. }
+                        | Error::CornerWeights { .. },
+                    ) => {}
                     Err(error) => panic!("{error}"),
                 }
             }
@@ -175,10 +247,20 @@ fn corners_with_a_frame_make_a_patch_that_converts() {
 #[test]
 fn a_torus_keeps_the_frame_of_the_hint() {
     let torus = Dupin::torus(1.63, 4.32, Frame::WORLD).unwrap();
-    let patch = torus.patch([2.526_112_925, 3.757_072_362], [2.427_868_285, 3.855_317_02]).unwrap();
+    let patch = torus
+        .patch(
+            [2.526_112_925, 3.757_072_362],
+            [2.427_868_285, 3.855_317_02],
+        )
+        .unwrap();
     let found = convert_torus(&patch.net().transposed(), Some([DVec3::X, DVec3::Z])).unwrap();
     assert_eq!(found.kind(), Kind::SpindleTorus);
-    let angles = [found.first[0] - 2.526_112_925, found.first[1] - 3.757_072_362, found.second[0] - 2.427_868_285, found.second[1] - 3.855_317_02];
+    let angles = [
+        found.first[0] - 2.526_112_925,
+        found.first[1] - 3.757_072_362,
+        found.second[0] - 2.427_868_285,
+        found.second[1] - 3.855_317_02,
+    ];
     assert!(angles.iter().all(|angle| angle.abs() < 1e-13), "{angles:?}");
 }
 
@@ -186,8 +268,13 @@ fn a_torus_keeps_the_frame_of_the_hint() {
 fn positive_patches_cover_the_area() {
     let surface = Dupin::quartic(3.0, 2.0, 1.0, Frame::WORLD).unwrap();
     let whole = [0.0, std::f64::consts::TAU];
-    let patches = surface.positive_patches(whole, whole, cyclide::tolerance::POSITIVE_WEIGHT).unwrap();
-    let area: f64 = patches.iter().map(|patch| surface.area(patch.first(), patch.second()).unwrap()).sum();
+    let patches = surface
+        .positive_patches(whole, whole, cyclide::tolerance::POSITIVE_WEIGHT)
+        .unwrap();
+    let area: f64 = patches
+        .iter()
+        .map(|patch| surface.area(patch.first(), patch.second()).unwrap())
+        .sum();
     assert!((area - surface.area(whole, whole).unwrap()).abs() < 1e-9 * area);
     assert!(patches.iter().all(|patch| patch.has_weights_above(0.05)));
 }
@@ -200,14 +287,21 @@ fn the_atlas_of_a_parabolic_cyclide_reaches_infinity() {
     for patch in &atlas {
         for (u, v) in [(0.2, 0.3), (0.5, 0.5), (0.9, 0.4)] {
             let point = patch.net().point(u, v).unwrap();
-            assert!(surface.signed_distance(point).unwrap().abs() < 1e-9 * (1.0 + point.length()), "{patch:?}");
+            assert!(
+                surface.signed_distance(point).unwrap().abs() < 1e-9 * (1.0 + point.length()),
+                "{patch:?}"
+            );
         }
     }
 }
 
 #[test]
 fn hostile_nets_are_refused() {
-    let good = *Dupin::quartic(3.0, 1.0, 2.0, Frame::WORLD).unwrap().patch([0.3, 1.7], [0.4, 1.9]).unwrap().net();
+    let good = *Dupin::quartic(3.0, 1.0, 2.0, Frame::WORLD)
+        .unwrap()
+        .patch([0.3, 1.7], [0.4, 1.9])
+        .unwrap()
+        .net();
     let spoilt = |i: usize, j: usize, with: MassPoint<DVec3>| {
         let mut control = *good.control();
         control[i][j] = with;
@@ -215,18 +309,36 @@ fn hostile_nets_are_refused() {
     };
     assert!(spoilt(1, 1, MassPoint::point(DVec3::NAN, 1.0)).is_err());
     for (i, j) in [(0, 0), (0, 1), (1, 1), (2, 2)] {
-        for with in [MassPoint::vector(DVec3::ZERO), MassPoint::vector(DVec3::X), MassPoint::point(DVec3::splat(1e150), 1.0), MassPoint::point(DVec3::ZERO, -1.0)] {
+        for with in [
+            MassPoint::vector(DVec3::ZERO),
+            MassPoint::vector(DVec3::X),
+            MassPoint::point(DVec3::splat(1e150), 1.0),
+            MassPoint::point(DVec3::ZERO, -1.0),
+        ] {
             let net = spoilt(i, j, with).unwrap();
-            assert!(convert(&net).is_err() && convert_torus(&net, None).is_err(), "{i} {j} {with:?}");
+            assert!(
+                convert(&net).is_err() && convert_torus(&net, None).is_err(),
+                "{i} {j} {with:?}"
+            );
         }
     }
     let collapsed = Biquadratic::new([[MassPoint::point(DVec3::ONE, 1.0); 3]; 3]).unwrap();
-    assert!(convert(&collapsed).is_err() && inspect(&collapsed).and_then(|report| report.check()).is_err());
+    assert!(
+        convert(&collapsed).is_err()
+            && inspect(&collapsed)
+                .and_then(|report| report.check())
+                .is_err()
+    );
     let point = DVec3::ZERO;
     assert!(solve_weights(&[[point; 3]; 3]).is_err());
     assert!(solve_weights(&[[DVec3::INFINITY; 3]; 3]).is_err());
     assert!(patch_from_corners([point; 4], DVec3::X, DVec3::Y).is_err());
-    for span in [[0.0, 0.0], [0.0, 7.0], [f64::NAN, 1.0], [0.0, f64::INFINITY]] {
+    for span in [
+        [0.0, 0.0],
+        [0.0, 7.0],
+        [f64::NAN, 1.0],
+        [0.0, f64::INFINITY],
+    ] {
         let ring = Dupin::quartic(3.0, 1.0, 2.0, Frame::WORLD).unwrap();
         assert!(ring.patch(span, [0.0, 1.0]).is_err());
         assert!(ring.positive_patches(span, [0.0, 1.0], 0.05).is_err());

@@ -39,7 +39,7 @@ use crate::demo::write_atomically;
 
 mod bezier_mass;
 
-// mod cyclide;
+mod cyclide;
 
 mod geodesic;
 
@@ -60,7 +60,7 @@ mod render;
 pub fn all() -> Vec<Entry> {
     vec![
         entry::<bezier_mass::BezierMass>(),
-        // entry::<cyclide::Cyclide>(),
+        entry::<cyclide::Cyclide>(),
         entry::<geodesic::Geodesic>(),
         // entry::<lorentz::Lorentz>(),
 

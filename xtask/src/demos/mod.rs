@@ -51,7 +51,7 @@
 
 // mod anisotropic;
 
-// mod biquadratic;
+mod biquadratic;
 
 // mod caustics;
 
@@ -61,7 +61,7 @@ mod cone_blend;
 
 mod cyclide_to_cone;
 
-// mod cyclide_zoo;
+mod cyclide_zoo;
 
 // mod dual_control;
 
@@ -107,13 +107,13 @@ pub fn all() -> Vec<Entry> {
     vec![
         // entry::<anisotropic::Anisotropic>(),
 
-        // entry::<biquadratic::Biquadratic>(),
+        entry::<biquadratic::BiquadraticDemo>(),
 
         // entry::<caustics::Caustics>(),
         entry::<cone::Cone>(),
         entry::<cone_blend::ConeBlend>(),
         entry::<cyclide_to_cone::CyclideToCone>(),
-        // entry::<cyclide_zoo::CyclideZoo>(),
+        entry::<cyclide_zoo::CyclideZoo>(),
 
         // entry::<dual_control::DualControl>(),
 

@@ -42,7 +42,7 @@ impl Random {
 }
 
 /// The constructions, by the class that they give.
-pub const CONSTRUCTIONS: [&str; 13] = [
+pub const CONSTRUCTIONS: [&str; 15] = [
     "general",
     "double line",
     "common vertex",
@@ -56,6 +56,8 @@ pub const CONSTRUCTIONS: [&str; 13] = [
     "crossing cylinders",
     "parallel cylinders",
     "skew axes",
+    "no common sphere",
+    "parallel axes, different angles",
 ];
 
 /// A cone that still moves: vertex, axis, half angle; or a cylinder's point, axis and radius.
@@ -74,11 +76,21 @@ pub struct RawCone {
 impl RawCone {
     /// The cone of half angle `alpha` about `axis` whose inscribed sphere about `centre` has the radius `radius`, of either sign.
     fn around(centre: DVec3, radius: f64, axis: DVec3, half_angle: f64) -> Self {
-        Self { point: centre - radius / half_angle.sin() * axis, axis, half_angle, radius: 0.0 }
+        Self {
+            point: centre - radius / half_angle.sin() * axis,
+            axis,
+            half_angle,
+            radius: 0.0,
+        }
     }
 
     fn cylinder(point: DVec3, axis: DVec3, radius: f64) -> Self {
-        Self { point, axis, half_angle: 0.0, radius }
+        Self {
+            point,
+            axis,
+            half_angle: 0.0,
+            radius,
+        }
     }
 
     fn moved(self, motion: &Motion) -> Self {
@@ -110,7 +122,11 @@ struct Motion {
 pub fn pair(construction: &str, random: &mut Random) -> ([RawCone; 2], f64) {
     let cones = canonical(construction, random);
     let scale = 10_f64.powf(random.between(-3.0, 3.0));
-    let motion = Motion { rotation: random.rotation(), translation: 3.0 * scale * random.unit() * random.direction(), scale };
+    let motion = Motion {
+        rotation: random.rotation(),
+        translation: 3.0 * scale * random.unit() * random.direction(),
+        scale,
+    };
     (cones.map(|cone| cone.moved(&motion)), scale)
 }
 
@@ -131,14 +147,19 @@ fn canonical(construction: &str, random: &mut Random) -> [RawCone; 2] {
     let signs = [random.sign(), random.sign()];
     match construction {
         "general" | "cone and cylinder" | "crossing cylinders" => loop {
-            let cylinders = ["general", "cone and cylinder", "crossing cylinders"].iter().position(|&name| name == construction);
+            let cylinders = ["general", "cone and cylinder", "crossing cylinders"]
+                .iter()
+                .position(|&name| name == construction);
             let angles = match cylinders {
                 Some(0) => [half_angle(random), half_angle(random)],
                 Some(1) => [half_angle(random), 0.0],
                 _ => [0.0, 0.0],
             };
             let axes = axes(random.between(0.3, PI - 0.3));
-            if products(axes, angles).iter().all(|product| (product.abs() - 1.0).abs() > 0.02) {
+            if products(axes, angles)
+                .iter()
+                .all(|product| (product.abs() - 1.0).abs() > 0.02)
+            {
                 return [0, 1].map(|i| {
                     if angles[i] == 0.0 {
                         RawCone::cylinder(axes[i] * random.between(-1.0, 1.0), axes[i], radius)
@@ -152,45 +173,73 @@ fn canonical(construction: &str, random: &mut Random) -> [RawCone; 2] {
             let angles = [half_angle(random), half_angle(random)];
             // The cones touch along a line of the same or of opposite nappes.
             let inside = random.unit() < 0.5;
-            let angle = if inside { (angles[0] - angles[1]).abs() } else { angles[0] + angles[1] };
+            let angle = if inside {
+                (angles[0] - angles[1]).abs()
+            } else {
+                angles[0] + angles[1]
+            };
             let other = if inside { 1 } else { 0 };
             let axes = axes(angle);
-            if angle < 0.15 || angle > PI - 0.15 || (products(axes, angles)[other].abs() - 1.0).abs() < 0.02 {
+            if angle < 0.15
+                || angle > PI - 0.15
+                || (products(axes, angles)[other].abs() - 1.0).abs() < 0.02
+            {
                 continue;
             }
             if construction == "common vertex, one double line" {
-                return [0, 1].map(|i| RawCone::around(DVec3::ZERO, 0.0, axes[i] * signs[i], angles[i]));
+                return [0, 1]
+                    .map(|i| RawCone::around(DVec3::ZERO, 0.0, axes[i] * signs[i], angles[i]));
             }
             // One orientation touches, so that the sphere has to be on matching nappes.
             let flip = if inside { 1.0 } else { -1.0 };
-            return [RawCone::around(DVec3::ZERO, radius, axes[0], angles[0]), RawCone::around(DVec3::ZERO, flip * radius, axes[1], angles[1])];
+            return [
+                RawCone::around(DVec3::ZERO, radius, axes[0], angles[0]),
+                RawCone::around(DVec3::ZERO, flip * radius, axes[1], angles[1]),
+            ];
         },
         "common vertex" => loop {
             let angles = [half_angle(random), half_angle(random)];
             let axes = axes(random.between(0.3, PI - 0.3));
-            if products(axes, angles).iter().all(|product| (product.abs() - 1.0).abs() > 0.02) {
+            if products(axes, angles)
+                .iter()
+                .all(|product| (product.abs() - 1.0).abs() > 0.02)
+            {
                 return [0, 1].map(|i| RawCone::around(DVec3::ZERO, 0.0, axes[i], angles[i]));
             }
         },
         "common vertex, two double lines" => {
             let angle = random.between(0.3, FRAC_PI_2 - 0.3);
             let axes = axes(FRAC_PI_2);
-            [RawCone::around(DVec3::ZERO, 0.0, axes[0], angle), RawCone::around(DVec3::ZERO, 0.0, axes[1], FRAC_PI_2 - angle)]
+            [
+                RawCone::around(DVec3::ZERO, 0.0, axes[0], angle),
+                RawCone::around(DVec3::ZERO, 0.0, axes[1], FRAC_PI_2 - angle),
+            ]
         }
         "parallel axes" | "parallel axes, double line" => loop {
             let angle = half_angle(random);
             let ahead = random.between(-2.0, 2.0);
-            let apart = if construction == "parallel axes" { random.between(0.2, 3.0) } else { ahead.abs() * angle.tan() };
+            let apart = if construction == "parallel axes" {
+                random.between(0.2, 3.0)
+            } else {
+                ahead.abs() * angle.tan()
+            };
             let null = (apart - ahead.abs() * angle.tan()).abs();
             if construction == "parallel axes" && null < 0.05 || apart < 0.1 {
                 continue;
             }
             let second = DVec3::new(ahead, apart, 0.0);
-            return [RawCone::around(DVec3::ZERO, 0.0, DVec3::X, angle), RawCone::around(second, 0.0, DVec3::X * signs[1], angle)];
+            return [
+                RawCone::around(DVec3::ZERO, 0.0, DVec3::X, angle),
+                RawCone::around(second, 0.0, DVec3::X * signs[1], angle),
+            ];
         },
         "identical axes, different angles" | "identical axes, equal angles" => loop {
             let first = half_angle(random);
-            let second = if construction == "identical axes, equal angles" { first } else { half_angle(random) };
+            let second = if construction == "identical axes, equal angles" {
+                first
+            } else {
+                half_angle(random)
+            };
             let ahead = random.between(0.3, 3.0) * signs[0];
             if construction == "identical axes, different angles" && (first - second).abs() < 0.05 {
                 continue;
@@ -203,15 +252,44 @@ fn canonical(construction: &str, random: &mut Random) -> [RawCone; 2] {
         "parallel cylinders" => loop {
             let other = random.between(0.3, 2.0);
             let apart = random.between(0.2, 5.0);
-            if (apart - (radius - other).abs()).abs() > 0.05 && (apart - radius - other).abs() > 0.05 {
+            if (apart - (radius - other).abs()).abs() > 0.05
+                && (apart - radius - other).abs() > 0.05
+            {
                 let second = DVec3::new(random.between(-1.0, 1.0), apart, 0.0);
-                return [RawCone::cylinder(DVec3::ZERO, DVec3::X, radius), RawCone::cylinder(second, DVec3::X * signs[1], other)];
+                return [
+                    RawCone::cylinder(DVec3::ZERO, DVec3::X, radius),
+                    RawCone::cylinder(second, DVec3::X * signs[1], other),
+                ];
             }
         },
         "skew axes" => {
             let axes = axes(random.between(0.3, PI - 0.3));
             let apart = DVec3::Z * random.between(0.1, 2.0);
-            [RawCone::around(DVec3::ZERO, radius, axes[0], half_angle(random)), RawCone::around(apart, radius, axes[1], half_angle(random))]
+            [
+                RawCone::around(DVec3::ZERO, radius, axes[0], half_angle(random)),
+                RawCone::around(apart, radius, axes[1], half_angle(random)),
+            ]
+        }
+        "no common sphere" => {
+            let axes = axes(random.between(0.3, PI - 0.3));
+            let other = radius * random.between(1.2, 3.0);
+            [
+                RawCone::around(DVec3::ZERO, radius, axes[0], half_angle(random)),
+                RawCone::around(DVec3::ZERO, other, axes[1], half_angle(random)),
+            ]
+        }
+        "parallel axes, different angles" => {
+            let angle = random.between(0.15, 0.6);
+            let second = DVec3::new(random.between(-2.0, 2.0), random.between(0.2, 3.0), 0.0);
+            [
+                RawCone::around(DVec3::ZERO, 0.0, DVec3::X, angle),
+                RawCone::around(
+                    second,
+                    0.0,
+                    DVec3::X * signs[1],
+                    angle + random.between(0.05, 0.6),
+                ),
+            ]
         }
         _ => unreachable!("{construction}"),
     }
@@ -220,11 +298,17 @@ fn canonical(construction: &str, random: &mut Random) -> [RawCone; 2] {
 /// The class and the number of families that the construction must give.
 pub fn expected(construction: &str) -> (fn(Class) -> bool, usize) {
     match construction {
-        "general" | "cone and cylinder" | "crossing cylinders" => (|class| class == Class::GeneralIntersecting, 2),
+        "general" | "cone and cylinder" | "crossing cylinders" => {
+            (|class| class == Class::GeneralIntersecting, 2)
+        }
         "double line" => (|class| class == Class::DoubleLine, 1),
         "common vertex" => (|class| class == Class::CommonVertex { double_lines: 0 }, 4),
-        "common vertex, one double line" => (|class| class == Class::CommonVertex { double_lines: 1 }, 3),
-        "common vertex, two double lines" => (|class| class == Class::CommonVertex { double_lines: 2 }, 2),
+        "common vertex, one double line" => {
+            (|class| class == Class::CommonVertex { double_lines: 1 }, 3)
+        }
+        "common vertex, two double lines" => {
+            (|class| class == Class::CommonVertex { double_lines: 2 }, 2)
+        }
         "parallel axes" => (|class| class == Class::GeneralParallel, 1),
         "parallel cylinders" => (|class| class == Class::GeneralParallel, 2),
         "identical axes, different angles" => (|class| class == Class::IdenticalAxes, 4),

@@ -3,10 +3,11 @@
 //! A cyclide touches the cones along circles with the diameters AB and CD exactly if the great circles of the two contact spheres, which touch the
 //! skeletal lines at A, B and at C, D, are joined by two principal circles (or a line) with one orientation: `A - C` along `N_A - N_C` and
 //! `B - D` along `N_B - N_D`, where N are the normals at these points (Shene, Lemmas 11 and 13). For each of the four choices of sides and
-//! orientation this is two equations for the place of CD, each linear.
+//! orientation this is two equations for the place of CD, each linear. Solutions whose two spheres touch each other are left out: the only surface
+//! that touches both along circles is then the pair of these spheres (it occurs where the cones touch along a line).
 
 use cyclide::Cone;
-use glam::DVec3;
+use cyclide::glam::DVec3;
 
 /// One solution: the height of the contact circle on the second cone, from its reference point along its axis.
 #[derive(Clone, Copy, Debug)]
@@ -51,12 +52,24 @@ pub(super) fn search(cones: [&Cone; 2], plane_normal: DVec3, height: f64, size: 
                 continue;
             }
             let other = -solve.1 / solve.0;
-            if (check.0 * other + check.1).abs() <= 1e-7 * (size + other.abs() + height.abs()) {
+            let near = 1e-7 * (size + other.abs() + height.abs());
+            let spheres = [sphere(cones[0], 1.0, height), sphere(cones[1], orientation, other)];
+            let [(centre, radius), (other_centre, other_radius)] = spheres;
+            let apart = centre.distance(other_centre);
+            let touch = (apart - (radius - other_radius).abs()).abs() <= near;
+            if (check.0 * other + check.1).abs() <= near && !touch {
                 found.push(Found { height: other });
             }
         }
     }
     found
+}
+
+/// Centre and signed radius of the sphere that touches a cone in the plane at a height.
+fn sphere(cone: &Cone, orientation: f64, height: f64) -> (DVec3, f64) {
+    let (sin, cos) = cone.half_angle().sin_cos();
+    let along = (height + cone.radius() * sin) / (cos * cos);
+    (cone.point() + along * cone.axis(), orientation * (cone.radius() + along * sin))
 }
 
 /// The linear equation `rate * h + constant = 0` for the height `h` on the second cone.
