@@ -243,7 +243,7 @@ pub(crate) fn member(family: &Family, parameter: f64) -> Result<Blend, Error> {
         contact(spheres[0], first, &mut residual),
         contact(spheres[1], second, &mut residual),
     ];
-    if !(residual <= tolerance::BLEND) {
+    if residual.is_nan() || residual > tolerance::BLEND {
         return Err(Error::NotTangent {
             residual,
             allowed: tolerance::BLEND,

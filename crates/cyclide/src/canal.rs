@@ -33,7 +33,7 @@ impl Dupin {
     /// use cyclide::{Dupin, Frame};
     /// let ring = Dupin::quartic(3.0, 1.0, 2.0, Frame::WORLD)?;
     /// let canal = ring.second_canal([0.5, 2.5])?; // through a plane
-    /// assert!(lorentz::Classification::of(canal.curve()).is_ok());
+    /// assert!(lorentz::Classification::of(*canal.control()).is_ok());
     /// let found = Dupin::from_canal(&canal)?;
     /// assert!((found.surface.as_quartic().expect("a quartic").mu() - 2.0).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())

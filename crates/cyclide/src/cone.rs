@@ -68,7 +68,7 @@ impl Cone {
         let step = to - from;
         let length = step.centre.length();
         let sine = step.radius / length;
-        if !(sine.abs() < 1.0) {
+        if sine.is_nan() || sine.abs() >= 1.0 {
             return None;
         }
         let axis = step.centre / length;

@@ -47,7 +47,7 @@ impl Dupin {
             size.max(sphere.centre.distance(origin.centre))
                 .max(sphere.radius.abs())
         });
-        if !(size > 0.0) {
+        if size <= 0.0 {
             return Err(Error::NotDetermined {
                 reason: "the spheres are one point",
             });
@@ -274,7 +274,7 @@ pub(crate) fn through(spheres: [Cycle; 3]) -> Result<Determined, Error> {
     let mean = start + to_mean;
     let is_first_family = determinant > 0.0;
     let square = to_mean.square() * if is_first_family { 1.0 } else { -1.0 };
-    if !(square > 0.0) {
+    if square.is_nan() || square <= 0.0 {
         return Err(Error::NotDetermined {
             reason: "the spheres have no common tangent circles",
         });

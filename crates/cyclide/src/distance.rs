@@ -51,10 +51,10 @@ impl Quartic {
         let middle = (self.eccentricity() * q.x).clamp(-inner, inner);
         let outer = (q.length() + a + c).max(inner);
         [
-            root_between(&parallel, -outer, -inner, false),
-            root_between(&parallel, -inner, middle, true),
-            root_between(&parallel, middle, inner, false),
-            root_between(&parallel, inner, outer, true),
+            root_between(parallel, -outer, -inner, false),
+            root_between(parallel, -inner, middle, true),
+            root_between(parallel, middle, inner, false),
+            root_between(parallel, inner, outer, true),
         ]
     }
 
@@ -120,9 +120,9 @@ impl Parabolic {
         let constant = (q.x * (q.x - f) * (q.x + f) + y * (q.x + f) + z * (q.x - f)).abs();
         let outer = 2.0 * q.x.abs().max(linear.sqrt()).max(constant.cbrt()) + f;
         [
-            root_between(&parallel, -outer.max(f + q.x), -f - q.x, false),
-            root_between(&parallel, -f - q.x, f - q.x, true),
-            root_between(&parallel, f - q.x, outer.max(f - q.x), false),
+            root_between(parallel, -outer.max(f + q.x), -f - q.x, false),
+            root_between(parallel, -f - q.x, f - q.x, true),
+            root_between(parallel, f - q.x, outer.max(f - q.x), false),
         ]
     }
 

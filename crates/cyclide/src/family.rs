@@ -506,7 +506,7 @@ impl Family {
             + (expected.radius - circle.radius).abs())
             / size
             + expected.axis.cross(circle.axis).length();
-        if !(deviation <= tolerance::CLASS) {
+        if deviation.is_nan() || deviation > tolerance::CLASS {
             return Err(Error::NotACircleOfTheCone { deviation });
         }
         self.blend(parameter)

@@ -137,7 +137,7 @@ impl Quartic {
 
 /// Where `cos t = value` inside a span.
 fn periodic_zeros([from, to]: [f64; 2], value: f64) -> Vec<f64> {
-    if !(value.abs() < 1.0) {
+    if value.is_nan() || value.abs() >= 1.0 {
         return Vec::new();
     }
     let (low, high) = (from.min(to), from.max(to));

@@ -86,8 +86,8 @@ impl NetReport {
     pub fn check(&self) -> Result<(), Error> {
         let allowed = tolerance::NET;
         for (condition, residual) in self.residuals() {
-            // Written so that a residual that is not a number fails.
-            if !(residual <= allowed) {
+            // A residual that is not a number fails too.
+            if residual.is_nan() || residual > allowed {
                 return Err(Error::NotAPatch {
                     condition,
                     residual,
