@@ -1,9 +1,9 @@
-//! The cases on mass points, quadratic curves and conics of the plane.
+//! The cases on mass points, curves and conics of the plane. Mass points and curves are answered in any dimension.
 
 use bezier_mass::glam::DVec2;
 use bezier_mass::{
-    CentralConic, Conic, Error, Half, Homography, Line, MassPoint, MassPointKind, Parameter,
-    Quadratic,
+    BezierCurve, CentralConic, Conic, Error, Half, Homography, Line, MassPoint, MassPointKind,
+    Parameter, Quadratic,
 };
 use integration_tests::{Case, numbers};
 use serde_json::{Value, json};
@@ -11,11 +11,17 @@ use serde_json::{Value, json};
 /// Answers a case of this part of the file; `false` if its kind belongs elsewhere.
 pub(crate) fn answer(case: &Case<'_>) -> bool {
     let answered = match case.kind() {
-        "mass_point_ops" => Ok(mass_point_ops(case)),
-        "curve_eval" => curve_eval(case),
-        "subdivide" => subdivide(case),
-        "homography" => homography(case),
-        "sub_arc" => sub_arc(case),
+        "mass_point_ops" | "curve_eval" | "subdivide" | "homography" | "sub_arc" => {
+            let input = case.input();
+            let first = input.get("control").map_or(&input["a"], |list| &list[0]);
+            match numbers(&first["x"]).map_or(0, |x| x.len()) {
+                1 => linear::<1>(case),
+                2 => linear::<2>(case),
+                3 => linear::<3>(case),
+                4 => linear::<4>(case),
+                dimension => panic!("mass points of dimension {dimension}"),
+            }
+        }
         "theorem1" => theorem1(case),
         "theorem2" => theorem2(case),
         "conic_features" => conic_features(case),
@@ -28,40 +34,67 @@ pub(crate) fn answer(case: &Case<'_>) -> bool {
     true
 }
 
-fn mass_point_ops(case: &Case<'_>) {
-    let a = mass_point(&case.input()["a"]);
-    let result = match case.get("scale") {
-        Some(_) => a * case.number("scale"),
-        None => a + mass_point(&case.input()["b"]),
-    };
-    compare_all(case, &mass_point_json(result));
-}
-
-fn curve_eval(case: &Case<'_>) -> Result<(), Error> {
-    compare_all(case, &mass_point_json(control(case)?.at(case.number("t"))));
+/// The kinds that need no more than a vector space.
+fn linear<const N: usize>(case: &Case<'_>) -> Result<(), Error> {
+    match case.kind() {
+        "mass_point_ops" => {
+            let a = mass_point::<N>(&case.input()["a"]);
+            let result = match case.get("scale") {
+                Some(_) => a * case.number("scale"),
+                None => a + mass_point(&case.input()["b"]),
+            };
+            compare_all(case, &mass_point_json(result));
+        }
+        "curve_eval" => {
+            let (curve, t) = (curve::<N>(case)?, case.number("t"));
+            compare_all(case, &mass_point_json(curve.at(t)));
+            if let Some(quadratic) = as_quadratic(&curve) {
+                compare_all(case, &mass_point_json(quadratic.at(t)));
+            }
+        }
+        "subdivide" => {
+            let (curve, t) = (curve::<N>(case)?, case.number("t"));
+            let (left, right) = curve.subdivide(t);
+            case.compare("left", control_json(left.control()));
+            case.compare("right", control_json(right.control()));
+            if let Some(quadratic) = as_quadratic(&curve) {
+                let (left, right) = quadratic.subdivide(t);
+                case.compare("left", control_json(left.control()));
+                case.compare("right", control_json(right.control()));
+            }
+        }
+        "homography" => {
+            let [a, b, c, d] = ["a", "b", "c", "d"].map(|key| case.number(key));
+            reparametrised(case, &curve::<N>(case)?, Homography::new(a, b, c, d)?);
+        }
+        _ => {
+            let ends = case.rows("ends");
+            let end = |i: usize| Parameter::new(ends[i][0], ends[i][1]);
+            let homography = Homography::between(end(0)?, end(1)?)?;
+            reparametrised(case, &curve::<N>(case)?, homography);
+        }
+    }
     Ok(())
 }
 
-fn subdivide(case: &Case<'_>) -> Result<(), Error> {
-    let (left, right) = control(case)?.subdivide(case.number("t"));
-    case.compare("left", control_json(&left));
-    case.compare("right", control_json(&right));
-    Ok(())
+fn reparametrised<const N: usize>(
+    case: &Case<'_>,
+    curve: &BezierCurve<[f64; N]>,
+    homography: Homography,
+) {
+    let result = curve.reparametrised(homography);
+    case.compare("control", control_json(result.control()));
+    if let Some(quadratic) = as_quadratic(curve) {
+        let result = quadratic.reparametrised(homography);
+        case.compare("control", control_json(result.control()));
+    }
 }
 
-fn homography(case: &Case<'_>) -> Result<(), Error> {
-    let [a, b, c, d] = ["a", "b", "c", "d"].map(|key| case.number(key));
-    let result = control(case)?.reparametrised(Homography::new(a, b, c, d)?);
-    case.compare("control", control_json(&result));
-    Ok(())
-}
-
-fn sub_arc(case: &Case<'_>) -> Result<(), Error> {
-    let ends = case.rows("ends");
-    let end = |i: usize| Parameter::new(ends[i][0], ends[i][1]);
-    let result = control(case)?.sub_arc(end(0)?, end(1)?)?;
-    case.compare("control", control_json(&result));
-    Ok(())
+/// The curve by value, if its degree is two.
+fn as_quadratic<const N: usize>(curve: &BezierCurve<[f64; N]>) -> Option<Quadratic<[f64; N]>> {
+    Quadratic::try_from(curve)
+        .ok()
+        .filter(|_| curve.degree() == 2)
 }
 
 fn theorem1(case: &Case<'_>) -> Result<(), Error> {
@@ -92,7 +125,7 @@ fn theorem2(case: &Case<'_>) -> Result<(), Error> {
     };
     let result = Quadratic::hyperbola_as_semicircle(points, case.number("w1"), half)?;
     for (key, &mass_point) in ["Q0", "Q1", "Q2"].into_iter().zip(result.control()) {
-        case.compare(key, mass_point_json(mass_point));
+        case.compare(key, mass_point_json(mass_point.map_linear(DVec2::into)));
     }
     let centre = result
         .centre()
@@ -103,7 +136,9 @@ fn theorem2(case: &Case<'_>) -> Result<(), Error> {
 }
 
 fn conic_features(case: &Case<'_>) -> Result<(), Error> {
-    let conic = control(case)?.conic();
+    let curve = curve::<2>(case)?;
+    let curve = curve.map(|h| h.map_linear(DVec2::from_array))?;
+    let conic = Quadratic::try_from(&curve)?.conic();
     if let Some(eccentricity) = conic.eccentricity() {
         case.compare("eccentricity", eccentricity);
     }
@@ -162,15 +197,18 @@ fn compare_all(case: &Case<'_>, answer: &Value) {
 }
 
 fn vector(value: &Value) -> DVec2 {
-    match numbers(value).as_deref() {
-        Some(&[x, y]) => DVec2::new(x, y),
-        _ => panic!("{value} is not a vector of the plane"),
-    }
+    DVec2::from_array(coordinates(value))
+}
+
+fn coordinates<const N: usize>(value: &Value) -> [f64; N] {
+    let list = numbers(value).unwrap_or_else(|| panic!("{value} is not a vector"));
+    <[f64; N]>::try_from(list).unwrap_or_else(|list| panic!("{list:?} has not {N} coordinates"))
 }
 
 /// `{w, x}`: `x` is the position where `w` is not zero, else the vector.
-fn mass_point(value: &Value) -> MassPoint<DVec2> {
-    let (weight, x) = (value["w"].as_f64().expect("a weight"), vector(&value["x"]));
+fn mass_point<const N: usize>(value: &Value) -> MassPoint<[f64; N]> {
+    let weight = value["w"].as_f64().expect("a weight");
+    let x = coordinates(&value["x"]);
     if weight == 0.0 {
         MassPoint::vector(x)
     } else {
@@ -178,24 +216,21 @@ fn mass_point(value: &Value) -> MassPoint<DVec2> {
     }
 }
 
-fn mass_point_json(mass_point: MassPoint<DVec2>) -> Value {
-    match mass_point.kind() {
-        MassPointKind::Point { position, weight } => json!({"w": weight, "x": position.to_array()}),
-        MassPointKind::Vector(vector) => json!({"w": 0.0, "x": vector.to_array()}),
-    }
+fn mass_point_json<const N: usize>(mass_point: MassPoint<[f64; N]>) -> Value {
+    let (w, x) = match mass_point.kind() {
+        MassPointKind::Point { position, weight } => (weight, position),
+        MassPointKind::Vector(vector) => (0.0, vector),
+    };
+    json!({"w": w, "x": x.to_vec()})
 }
 
-fn control(case: &Case<'_>) -> Result<Quadratic<DVec2>, Error> {
-    match case.input()["control"].as_array().map(Vec::as_slice) {
-        Some([start, middle, end]) => Quadratic::new([start, middle, end].map(mass_point)),
-        _ => panic!("three control mass points"),
-    }
+fn curve<const N: usize>(case: &Case<'_>) -> Result<BezierCurve<[f64; N]>, Error> {
+    let control = case.input()["control"]
+        .as_array()
+        .expect("a list of control mass points");
+    BezierCurve::new(control.iter().map(mass_point).collect())
 }
 
-fn control_json(curve: &Quadratic<DVec2>) -> Value {
-    curve
-        .control()
-        .iter()
-        .map(|&h| mass_point_json(h))
-        .collect()
+fn control_json<const N: usize>(control: &[MassPoint<[f64; N]>]) -> Value {
+    control.iter().map(|&h| mass_point_json(h)).collect()
 }
