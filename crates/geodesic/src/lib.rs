@@ -3,6 +3,7 @@
 #[cfg(feature = "closest-point")]
 mod closest;
 mod error;
+mod exact;
 mod finder;
 mod funnel;
 mod hop;
@@ -20,6 +21,7 @@ mod torus;
 #[cfg(feature = "closest-point")]
 pub use closest::{Closest, ClosestPoint};
 pub use error::Error;
+pub use exact::{DistanceField, Sweep};
 pub use finder::{PathFinder, Start};
 pub use glam;
 pub use loops::{DirectedLoop, GeodesicLoop, LoopFinder};

@@ -1,0 +1,261 @@
+//! Exact shortest paths, traced back through the windows of a sweep.
+
+use glam::DVec2;
+
+use super::sweep::{Arrival, DistanceField, POINT_SOURCE, Sweep, Way, apex, local_coordinates};
+use crate::mesh::{Mesh, NONE, face_of, next, previous};
+use crate::{Error, GeodesicPath, PathFinder, SurfacePoint};
+
+impl<'m> Sweep<'m> {
+    /// The globally shortest path between two points, with its exact length.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Sweep::distance`]; [`Error::NotConverged`] if the path could not be traced back, which no known mesh brings
+    /// about.
+    pub fn shortest_path(
+        &mut self,
+        from: SurfacePoint,
+        to: SurfacePoint,
+    ) -> Result<GeodesicPath, Error> {
+        let (from, to) = (self.mesh().canonical(from)?, self.mesh().canonical(to)?);
+        let distance = self.distance(from, to)?;
+        let mut finder = PathFinder::new(self.mesh());
+        let path = DistanceField { sweep: self }.path_to(to, &mut finder)?;
+        let _ = distance;
+        Ok(path)
+    }
+
+    /// Whether a path is as short as any between its ends: its length over the exact distance, 1 for a shortest path up to
+    /// rounding. Everything needed to prove a locally shortest path global, or to learn by how much it is not.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Sweep::distance`].
+    pub fn ratio_to_shortest(&mut self, path: &GeodesicPath) -> Result<f64, Error> {
+        let (Some(&from), Some(&to)) = (path.points().first(), path.points().last()) else {
+            return Ok(1.0);
+        };
+        let distance = self.distance(from, to)?;
+        Ok(if distance == 0.0 {
+            1.0
+        } else {
+            path.length() / distance
+        })
+    }
+}
+
+impl DistanceField<'_, '_> {
+    /// The exact shortest path from the nearest source to a point.
+    ///
+    /// # Errors
+    ///
+    /// An error about a point that is not on the mesh; [`Error::NoPath`] to a point that was not reached;
+    /// [`Error::NotConverged`] if the trace was lost.
+    pub fn path_to(
+        &self,
+        to: SurfacePoint,
+        finder: &mut PathFinder<'_>,
+    ) -> Result<GeodesicPath, Error> {
+        let mesh = self.sweep.mesh();
+        let to = mesh.canonical(to)?;
+        let mut faces: Vec<u32> = Vec::new();
+        let mut at = to;
+        let limit = 4 * mesh.face_count() + 100;
+        let source = loop {
+            if faces.len() > limit {
+                return Err(Error::NotConverged {
+                    updates: faces.len(),
+                });
+            }
+            match self.step_back(at, &mut faces)? {
+                Back::Source(source) => break source,
+                Back::Vertex(v) => at = SurfacePoint::Vertex(v),
+            }
+        };
+        faces.dedup();
+        faces.reverse();
+        let joined = joined(mesh, &faces);
+        finder.taut(&joined, source, to).cloned()
+    }
+
+    /// Goes back from a point to the vertex or source from which its last straight stretch comes.
+    fn step_back(&self, at: SurfacePoint, faces: &mut Vec<u32>) -> Result<Back, Error> {
+        let sweep = self.sweep;
+        let mesh = sweep.mesh();
+        let source = |number: u32| Back::Source(sweep.sources()[number as usize]);
+        let nowhere = Error::NoPath {
+            from: sweep.sources()[0],
+            to: at,
+        };
+        let (halfedge, unfolded, origin, point) = match self.nearest(at).ok_or(nowhere.clone())?.1 {
+            Way::Straight(f, number) => {
+                faces.push(f);
+                return Ok(source(number));
+            }
+            Way::Face(f, v) => {
+                faces.push(f);
+                return Ok(Back::Vertex(v));
+            }
+            Way::Window(window) => {
+                let local = local_coordinates(mesh, window.halfedge, at);
+                (window.halfedge, window.source, window.origin, local)
+            }
+            Way::Corner(v) => match sweep.arrival(v) {
+                Arrival::Source(number) => {
+                    let from = sweep.sources()[number as usize];
+                    if let Some(f) = mesh
+                        .faces_of(SurfacePoint::Vertex(v))
+                        .find(|&f| mesh.face_contains(f, from))
+                    {
+                        faces.push(f);
+                    }
+                    return Ok(source(number));
+                }
+                Arrival::Edge(u) => {
+                    if let Some(f) = mesh
+                        .faces_of(SurfacePoint::Vertex(v))
+                        .find(|&f| mesh.face_contains(f, SurfacePoint::Vertex(u)))
+                    {
+                        faces.push(f);
+                    }
+                    return Ok(Back::Vertex(u));
+                }
+                Arrival::Window {
+                    halfedge,
+                    source,
+                    origin,
+                } => (halfedge, source, origin, apex(mesh, halfedge)),
+                Arrival::None => return Err(nowhere),
+            },
+        };
+        self.unfold_back(halfedge, unfolded, origin, point, faces)?;
+        Ok(if origin & POINT_SOURCE == 0 {
+            Back::Vertex(origin)
+        } else {
+            source(origin & !POINT_SOURCE)
+        })
+    }
+
+    /// Walks straight from a point of the face of `h` through `h` towards an unfolded source, until the source's face.
+    fn unfold_back(
+        &self,
+        mut h: u32,
+        mut source: DVec2,
+        origin: u32,
+        mut point: DVec2,
+        faces: &mut Vec<u32>,
+    ) -> Result<(), Error> {
+        let mesh = self.sweep.mesh();
+        faces.push(face_of(h));
+        let limit = faces.len() + 2 * mesh.face_count() + 10;
+        loop {
+            let twin = mesh.twins()[h as usize];
+            if twin == NONE || faces.len() > limit {
+                return Err(Error::NotConverged {
+                    updates: faces.len(),
+                });
+            }
+            let f = face_of(twin);
+            faces.push(f);
+            let there = match origin & POINT_SOURCE {
+                0 => mesh.faces()[f as usize].contains(&origin),
+                _ => mesh.face_contains(f, self.sweep.sources()[(origin & !POINT_SOURCE) as usize]),
+            };
+            // The twin's coordinates: turned by half a turn about the middle of the edge, the face now above.
+            let length = mesh.length(h);
+            let turned = |p: DVec2| DVec2::new(length - p.x, -p.y);
+            let (s, p) = (turned(source), turned(point));
+            let c = apex(mesh, twin);
+            // The source is in this face if it is not beyond both other edges.
+            if there && is_inside(s, c, length) {
+                return Ok(());
+            }
+            // The segment from p (below) to s (above, beyond the face) leaves to the left or the right of the apex.
+            let side = (s - p).perp_dot(c - p);
+            let (edge, start, along) = if side > 0.0 {
+                (
+                    next(twin),
+                    DVec2::new(length, 0.0),
+                    c - DVec2::new(length, 0.0),
+                )
+            } else {
+                (previous(twin), c, -c)
+            };
+            let along = along.normalize();
+            let to_edge = |q: DVec2| DVec2::new((q - start).dot(along), along.perp_dot(q - start));
+            (source, point, h) = (to_edge(s), to_edge(p), edge);
+        }
+    }
+}
+
+enum Back {
+    Source(SurfacePoint),
+    Vertex(u32),
+}
+
+/// Whether a point lies in the triangle over `[0, length]` with this apex, up to rounding.
+fn is_inside(s: DVec2, apex: DVec2, length: f64) -> bool {
+    let slack = -1e-9 * length * length;
+    let corner = DVec2::new(length, 0.0);
+    (apex - corner).perp_dot(s - corner) >= slack
+        && (-apex).perp_dot(s - apex) >= slack
+        && s.y >= -1e-9 * length
+}
+
+/// Fills the turns around vertices in a list of faces, so that consecutive faces share an edge.
+fn joined(mesh: &Mesh, faces: &[u32]) -> Vec<u32> {
+    let mut joined: Vec<u32> = Vec::with_capacity(faces.len());
+    for &f in faces {
+        if let Some(&last) = joined.last() {
+            let neighbours = (3 * last..3 * last + 3).any(|h| {
+                mesh.twins()[h as usize] != NONE && face_of(mesh.twins()[h as usize]) == f
+            });
+            if !neighbours && last != f {
+                joined.extend(around(mesh, last, f));
+            }
+        }
+        if joined.last() != Some(&f) {
+            joined.push(f);
+        }
+    }
+    joined
+}
+
+/// The faces between two faces around a vertex that they share, the shorter way; nothing if they share none.
+fn around(mesh: &Mesh, from: u32, to: u32) -> Vec<u32> {
+    let shared = mesh.faces()[from as usize]
+        .into_iter()
+        .find(|v| mesh.faces()[to as usize].contains(v));
+    let Some(v) = shared else { return Vec::new() };
+    let Some(start) = (3 * from..3 * from + 3).find(|&h| mesh.origin(h) == v) else {
+        return Vec::new();
+    };
+    let walk = |step: &dyn Fn(u32) -> Option<u32>| -> Option<Vec<u32>> {
+        let mut faces = Vec::new();
+        let mut h = step(start)?;
+        while h != start {
+            if face_of(h) == to {
+                return Some(faces);
+            }
+            faces.push(face_of(h));
+            h = step(h)?;
+        }
+        None
+    };
+    let (left, right) = (
+        walk(&|h| mesh.counter_clockwise(h)),
+        walk(&|h| mesh.clockwise(h)),
+    );
+    match (left, right) {
+        (Some(a), Some(b)) => {
+            if a.len() <= b.len() {
+                a
+            } else {
+                b
+            }
+        }
+        (Some(a), None) | (None, Some(a)) => a,
+        (None, None) => Vec::new(),
+    }
+}
