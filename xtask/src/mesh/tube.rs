@@ -112,9 +112,9 @@ fn frames(points: &[DVec3], tangents: &[DVec3], closed: bool) -> Vec<[DVec3; 2]>
             .reject_from_normalized(tangents[to])
             .normalize_or(u)
     };
-    for i in 1..points.len() {
+    for (i, tangent) in tangents.iter().enumerate().skip(1) {
         u = carry(i - 1, i, u);
-        frames.push([u, tangents[i].cross(u)]);
+        frames.push([u, tangent.cross(u)]);
     }
     if closed {
         // What the frame has turned after one round is taken back evenly.

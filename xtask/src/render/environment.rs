@@ -88,11 +88,9 @@ impl Studio {
             let inside = smoothstep(edge, edge + 0.05, direction.dot(middle));
             Vec3A::splat(radiance * inside)
         };
-        let floor = if direction.z < 0.0 {
-            BACKDROP_FLOOR * 0.6
-        } else {
-            Self::sky(direction) * 1.7
-        };
+        // A soft horizon: a sharp one would draw a line that is not on the surface.
+        let above = Self::sky(direction) * 1.7;
+        let floor = (BACKDROP_FLOOR * 0.6).lerp(above, smoothstep(-0.25, 0.15, direction.z));
         self.panels
             .iter()
             .fold(floor, |light, &shape| light + panel(shape))

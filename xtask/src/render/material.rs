@@ -74,12 +74,12 @@ impl Material {
         }
     }
 
-    /// Reflection lines: 14 stripes in half a turn.
+    /// Reflection lines: 14 stripes in half a turn, without other mirror images that would cross them.
     #[must_use]
     pub const fn zebra() -> Self {
         Self {
             paint: Paint::Zebra { stripes: 14.0 },
-            finish: Finish::Glossy,
+            finish: Finish::Matte,
         }
     }
 
