@@ -21,16 +21,26 @@ pub(super) struct Cyclide {
 
 impl Bench for Cyclide {
     const NAME: &'static str = "cyclide";
-    const ABOUT: &'static str = "Points, parameters and rays of a ring cyclide, conversion of patches, blends of cones";
+    const ABOUT: &'static str =
+        "Points, parameters and rays of a ring cyclide, conversion of patches, blends of cones";
 
     fn run(&self, timer: &Timer) -> Result<Value> {
         let ring = Dupin::quartic(3.0, 1.0, 2.0, Frame::WORLD)?;
         let patch = ring.patch([0.3, 1.7], [0.4, 1.9])?;
-        let torus = Dupin::torus(3.0, 1.0, Frame::WORLD)?.patch([0.3, 1.7], [0.4, 1.9])?.net().transposed();
+        let torus = Dupin::torus(3.0, 1.0, Frame::WORLD)?
+            .patch([0.3, 1.7], [0.4, 1.9])?
+            .net()
+            .transposed();
         let point = ring.point(0.7, 1.9);
         let axis = dvec3(0.3, 0.95, 0.0).normalize();
-        let cones = [Cone::cylinder(DVec3::ZERO, DVec3::X, 1.0)?, Cone::new(-axis / 0.4_f64.sin(), axis, 0.4)?];
-        let family = *classify(&cones[0], &cones[1]).families().first().ok_or_else(|| anyhow!("no family"))?;
+        let cones = [
+            Cone::cylinder(DVec3::ZERO, DVec3::X, 1.0)?,
+            Cone::new(-axis / 0.4_f64.sin(), axis, 0.4)?,
+        ];
+        let family = *classify(&cones[0], &cones[1])
+            .families()
+            .first()
+            .ok_or_else(|| anyhow!("no family"))?;
         let mut rows = vec![
             json!({"work": "patch point", "ns": timer.nanoseconds(|| black_box(&patch).net().point(black_box(0.3), 0.6))}),
             json!({"work": "parameters of a point", "ns": timer.nanoseconds(|| ring.parameters_at(black_box(point)))}),
@@ -53,7 +63,9 @@ impl Cyclide {
     fn rays(&self, timer: &Timer, ring: Dupin, rows: &mut Vec<Value>) -> Result<()> {
         let mut state = 1_u64;
         let mut unit = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
             (state >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
         };
         let rays: Vec<(DVec3, DVec3)> = (0..self.rays.max(1))
@@ -70,11 +82,15 @@ impl Cyclide {
         for &(origin, direction) in &rays {
             for hit in caster.intersect(origin, direction)?.iter() {
                 hits += 1;
-                residual = residual.max(ring.implicit(origin + hit.s * direction).abs() / 6.0_f64.powi(4));
+                residual =
+                    residual.max(ring.implicit(origin + hit.s * direction).abs() / 6.0_f64.powi(4));
             }
         }
         let exact = timer.nanoseconds(|| {
-            rays.iter().filter_map(|&(origin, direction)| caster.intersect(origin, direction).ok()).map(|found| found.len()).sum::<usize>()
+            rays.iter()
+                .filter_map(|&(origin, direction)| caster.intersect(origin, direction).ok())
+                .map(|found| found.len())
+                .sum::<usize>()
         }) / count;
         rows.push(json!({
             "work": "all hits of a ray", "ns": exact, "million per second": 1e3 / exact, "hits per ray": hits as f64 / count,
@@ -83,11 +99,20 @@ impl Cyclide {
         // The nearest hit with triangles of the same surface, for several finenesses.
         for steps in [60_usize, 240, 960] {
             let turn = std::f64::consts::TAU;
-            let mesh = Mesh::grid(2 * steps, steps, |u, v| (ring.point(turn * u, turn * v), ring.normal(turn * u, turn * v)));
+            let mesh = Mesh::grid(2 * steps, steps, |u, v| {
+                (
+                    ring.point(turn * u, turn * v),
+                    ring.normal(turn * u, turn * v),
+                )
+            });
             let mut worst = 0.0_f64;
             for (i, j) in (0..200).flat_map(|i| (0..7).map(move |j| (i, j))) {
                 let triangle = mesh.triangles[(i * 7919 + j * 104_729) % mesh.triangles.len()];
-                let middle = triangle.iter().map(|&k| mesh.positions[k as usize]).sum::<DVec3>() / 3.0;
+                let middle = triangle
+                    .iter()
+                    .map(|&k| mesh.positions[k as usize])
+                    .sum::<DVec3>()
+                    / 3.0;
                 worst = worst.max(ring.signed_distance(middle)?.abs());
             }
             let triangles = mesh.triangles.len();
@@ -99,7 +124,10 @@ impl Cyclide {
                 .map(|&(origin, direction)| (accel.local(origin), direction.as_vec3a()))
                 .collect();
             let traced = timer.nanoseconds(|| {
-                local.iter().filter(|&&(origin, direction)| accel.trace(origin, direction, 0.0).is_some()).count()
+                local
+                    .iter()
+                    .filter(|&&(origin, direction)| accel.trace(origin, direction, 0.0).is_some())
+                    .count()
             }) / count;
             rows.push(json!({
                 "work": "nearest hit by obvhs", "triangles": triangles, "ns": traced, "million per second": 1e3 / traced,

@@ -8,7 +8,9 @@ use std::f64::consts::TAU;
 
 use anyhow::{Result, anyhow};
 use bezier_mass::{Biquadratic, MassPoint};
-use cyclide::{Condition, Conversion, Dupin, Error, Frame, Quartic, convert, convert_torus, inspect};
+use cyclide::{
+    Condition, Conversion, Dupin, Error, Frame, Quartic, convert, convert_torus, inspect,
+};
 use glam::{DAffine3, DQuat, DVec3, dvec3};
 
 use crate::color::{BLUE, Color, INK, VERMILION};
@@ -23,12 +25,20 @@ use crate::report::Target;
 pub(super) struct BiquadraticDemo {}
 
 /// The printed spindle torus: `a`, `mu`, then the four bounds.
-const PRINTED: [f64; 6] = [1.63, 4.32, 2.526_112_925, 3.757_072_362, 2.427_868_285, 3.855_317_02];
+const PRINTED: [f64; 6] = [
+    1.63,
+    4.32,
+    2.526_112_925,
+    3.757_072_362,
+    2.427_868_285,
+    3.855_317_02,
+];
 
 impl Demo for BiquadraticDemo {
     const NAME: &'static str = "biquadratic";
     const PAPER: &'static str = "biquadratic-to-torus, Figs 1 to 11";
-    const ABOUT: &'static str = "Rational biquadratic patches converted to tori, spheres and cyclides";
+    const ABOUT: &'static str =
+        "Rational biquadratic patches converted to tori, spheres and cyclides";
 
     fn run(&self, context: &mut Context) -> Result<()> {
         measure_printed(context)?;
@@ -50,9 +60,23 @@ fn printed_net() -> Result<Biquadratic<DVec3>> {
 
 fn measure_printed(context: &mut Context) -> Result<()> {
     let found = convert_torus(&printed_net()?, Some([DVec3::X, DVec3::Z]))?;
-    let torus = found.surface.as_quartic().ok_or_else(|| anyhow!("not a quartic"))?;
-    let got = [torus.a(), torus.mu(), found.first[0], found.first[1], found.second[0], found.second[1]];
-    for ((key, value), printed) in ["a", "mu", "theta0", "theta1", "psi0", "psi1"].into_iter().zip(got).zip(PRINTED) {
+    let torus = found
+        .surface
+        .as_quartic()
+        .ok_or_else(|| anyhow!("not a quartic"))?;
+    let got = [
+        torus.a(),
+        torus.mu(),
+        found.first[0],
+        found.first[1],
+        found.second[0],
+        found.second[1],
+    ];
+    for ((key, value), printed) in ["a", "mu", "theta0", "theta1", "psi0", "psi1"]
+        .into_iter()
+        .zip(got)
+        .zip(PRINTED)
+    {
         context.number(key, value, Target::within(printed, 1e-9));
     }
     Ok(())
@@ -77,7 +101,9 @@ impl Random {
 
     fn frame(&mut self) -> Frame {
         loop {
-            if let Some(frame) = Frame::from_directions(self.direction(), self.direction(), self.direction()) {
+            if let Some(frame) =
+                Frame::from_directions(self.direction(), self.direction(), self.direction())
+            {
                 return frame;
             }
         }
@@ -95,8 +121,12 @@ impl Random {
             };
             let (first, second) = (span(self), span(self));
             let at = |[from, to]: [f64; 2], i: i32| from + (to - from) * f64::from(i) / 16.0;
-            let one_sign = |radius: &dyn Fn(i32) -> f64| (0..=16).all(|i| radius(i) > 0.05 * a) || (0..=16).all(|i| radius(i) < -0.05 * a);
-            if one_sign(&|i| mu - c * at(first, i).cos()) && one_sign(&|i| a - mu * at(second, i).cos()) {
+            let one_sign = |radius: &dyn Fn(i32) -> f64| {
+                (0..=16).all(|i| radius(i) > 0.05 * a) || (0..=16).all(|i| radius(i) < -0.05 * a)
+            };
+            if one_sign(&|i| mu - c * at(first, i).cos())
+                && one_sign(&|i| a - mu * at(second, i).cos())
+            {
                 return Ok((surface, *surface.patch(first, second)?.net()));
             }
         }
@@ -123,7 +153,12 @@ fn measure_refusals(context: &mut Context) -> Result<()> {
         let ratio = random.between(0.1, 0.9);
         let (_, net) = random.patch(ratio)?;
         let net = cyclide::normalise(&net)?;
-        if net.control().as_flattened().iter().any(|control| control.weight.abs() < 0.2) {
+        if net
+            .control()
+            .as_flattened()
+            .iter()
+            .any(|control| control.weight.abs() < 0.2)
+        {
             continue;
         }
         for condition in [
@@ -138,7 +173,9 @@ fn measure_refusals(context: &mut Context) -> Result<()> {
             let spoilt = spoil(&net, condition, &mut random)?;
             broken += 1;
             match convert(&spoilt) {
-                Err(Error::NotAPatch { condition: named, .. }) => {
+                Err(Error::NotAPatch {
+                    condition: named, ..
+                }) => {
                     rejected += 1;
                     wrong_reason += u32::from(named != condition);
                 }
@@ -146,26 +183,40 @@ fn measure_refusals(context: &mut Context) -> Result<()> {
                     // Refused before the conditions were asked: they have to name it all the same.
                     rejected += 1;
                     let named = inspect(&spoilt).and_then(|report| report.check());
-                    wrong_reason += u32::from(!matches!(named, Err(Error::NotAPatch { condition: named, .. }) if named == condition));
+                    wrong_reason += u32::from(
+                        !matches!(named, Err(Error::NotAPatch { condition: named, .. }) if named == condition),
+                    );
                 }
                 Ok(_) => {}
             }
         }
     }
     context.number("not_convertible", broken, Target::AtLeast(100.0));
-    context.number("not_convertible_rejected", rejected, Target::exactly(broken));
+    context.number(
+        "not_convertible_rejected",
+        rejected,
+        Target::exactly(broken),
+    );
     context.number("wrong_reason", wrong_reason, Target::exactly(0));
     Ok(())
 }
 
 /// The net with one condition violated and those before it kept.
-fn spoil(net: &Biquadratic<DVec3>, condition: Condition, random: &mut Random) -> Result<Biquadratic<DVec3>> {
-    let mut points = net.control().map(|row| row.map(|control| control.position().unwrap_or_default()));
+fn spoil(
+    net: &Biquadratic<DVec3>,
+    condition: Condition,
+    random: &mut Random,
+) -> Result<Biquadratic<DVec3>> {
+    let mut points = net
+        .control()
+        .map(|row| row.map(|control| control.position().unwrap_or_default()));
     let mut weights = net.control().map(|row| row.map(|control| control.weight));
     let amount = random.between(0.01, 0.1);
     let [p00, p01, p02] = points[0];
     match condition {
-        Condition::ConcyclicCorners => points[2][2] += amount * p00.distance(points[2][2]) * random.direction(),
+        Condition::ConcyclicCorners => {
+            points[2][2] += amount * p00.distance(points[2][2]) * random.direction()
+        }
         Condition::EqualEdges => points[0][1] += amount * (p02 - p00),
         Condition::RightAngles => {
             // About the chord: the distances to both ends stay.
@@ -180,7 +231,8 @@ fn spoil(net: &Biquadratic<DVec3>, condition: Condition, random: &mut Random) ->
         Condition::EdgeWeights => weights[0][1] *= 1.0 + amount,
         _ => weights[1][1] *= 1.0 + amount,
     }
-    let control = [0, 1, 2].map(|i| [0, 1, 2].map(|j| MassPoint::point(points[i][j], weights[i][j])));
+    let control =
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j| MassPoint::point(points[i][j], weights[i][j])));
     Ok(Biquadratic::new(control)?)
 }
 
@@ -194,17 +246,38 @@ struct Exhibit {
 fn exhibits() -> Result<Vec<Exhibit>> {
     let whole = [0.0, TAU];
     let printed = printed_net()?;
-    let torus = Dupin::torus(3.0, 1.1, Frame::WORLD)?.patch([-2.3, -0.9], [1.9, 3.9])?.normalised_net()?.transposed();
+    let torus = Dupin::torus(3.0, 1.1, Frame::WORLD)?
+        .patch([-2.3, -0.9], [1.9, 3.9])?
+        .normalised_net()?
+        .transposed();
     let sphere: Dupin = Quartic::double_sphere(2.0, 0.35, Frame::WORLD)?.into();
     let sphere = sphere.patch([-2.4, -1.0], [-0.9, 0.5])?.normalised_net()?;
-    let ring = Dupin::quartic(3.0, 1.1, 1.8, Frame::WORLD)?.patch([-2.2, -0.6], [2.0, 4.0])?.normalised_net()?;
+    let ring = Dupin::quartic(3.0, 1.1, 1.8, Frame::WORLD)?
+        .patch([-2.2, -0.6], [2.0, 4.0])?
+        .normalised_net()?;
     let general = convert(&ring)?;
     let on_sphere = convert(&sphere)?;
     Ok(vec![
-        Exhibit { net: printed, found: convert_torus(&printed, Some([DVec3::X, DVec3::Z]))?, shown: [whole; 2] },
-        Exhibit { net: torus, found: convert_torus(&torus, None)?, shown: [whole; 2] },
-        Exhibit { net: sphere, found: on_sphere, shown: [whole; 2] },
-        Exhibit { net: ring, found: general, shown: [whole; 2] },
+        Exhibit {
+            net: printed,
+            found: convert_torus(&printed, Some([DVec3::X, DVec3::Z]))?,
+            shown: [whole; 2],
+        },
+        Exhibit {
+            net: torus,
+            found: convert_torus(&torus, None)?,
+            shown: [whole; 2],
+        },
+        Exhibit {
+            net: sphere,
+            found: on_sphere,
+            shown: [whole; 2],
+        },
+        Exhibit {
+            net: ring,
+            found: general,
+            shown: [whole; 2],
+        },
     ])
 }
 
@@ -225,30 +298,57 @@ fn draw_patches(context: &mut Context) -> Result<()> {
         let middle = 0.5 * (low + high);
         let turn = DQuat::from_rotation_x(0.35);
         let place = dvec3(1.12 * (index % 2) as f64, 0.0, -0.86 * (index / 2) as f64);
-        let map = DAffine3::from_scale_rotation_translation(DVec3::splat(scale), turn, place - scale * (turn * middle));
+        let map = DAffine3::from_scale_rotation_translation(
+            DVec3::splat(scale),
+            turn,
+            place - scale * (turn * middle),
+        );
         let thickness = 0.008 / scale;
         let point = |u: f64, v: f64| exhibit.net.point(u, v).unwrap_or_default();
         let patch = Mesh::grid(steps / 2, steps / 2, |u, v| {
             let jet = exhibit.net.jet(u, v);
-            let along = |partial: MassPoint<DVec3>| (partial.weighted - partial.weight * point(u, v)) / jet.value.weight;
-            (point(u, v), along(jet.du).cross(along(jet.dv)).normalize_or(DVec3::Z))
+            let along = |partial: MassPoint<DVec3>| {
+                (partial.weighted - partial.weight * point(u, v)) / jet.value.weight
+            };
+            (
+                point(u, v),
+                along(jet.du).cross(along(jet.dv)).normalize_or(DVec3::Z),
+            )
         });
         let mut net = Mesh::default();
-        let controls = exhibit.net.control().map(|row| row.map(|control| control.position().unwrap_or_default()));
+        let controls = exhibit
+            .net
+            .control()
+            .map(|row| row.map(|control| control.position().unwrap_or_default()));
         for i in 0..3 {
             net.append(Mesh::tube(&controls[i], 0.6 * thickness, false));
-            net.append(Mesh::tube(&[controls[0][i], controls[1][i], controls[2][i]], 0.6 * thickness, false));
+            net.append(Mesh::tube(
+                &[controls[0][i], controls[1][i], controls[2][i]],
+                0.6 * thickness,
+                false,
+            ));
         }
         for control in controls.as_flattened() {
             net.append(Mesh::sphere(*control, 1.8 * thickness, 0.1 * thickness));
         }
         let [along_u, along_v] = exhibit.net.middle_curves();
-        scene.add(shell.transformed(map), Material::glass(Color::hex(0x8fb6d8)))?;
-        scene.add(patch.transformed(map), Material::glossy(Color::hex(0xf0c46a)))?;
+        scene.add(
+            shell.transformed(map),
+            Material::glass(Color::hex(0x8fb6d8)),
+        )?;
+        scene.add(
+            patch.transformed(map),
+            Material::glossy(Color::hex(0xf0c46a)),
+        )?;
         scene.add(net.transformed(map), Material::matte(INK))?;
         for (curve, color) in [(along_u, VERMILION), (along_v, BLUE)] {
-            let points: Vec<DVec3> = (0..=80).filter_map(|i| curve.point(f64::from(i) / 80.0).ok()).collect();
-            scene.add(Mesh::tube(&points, thickness, false).transformed(map), Material::glossy(color))?;
+            let points: Vec<DVec3> = (0..=80)
+                .filter_map(|i| curve.point(f64::from(i) / 80.0).ok())
+                .collect();
+            scene.add(
+                Mesh::tube(&points, thickness, false).transformed(map),
+                Material::glossy(color),
+            )?;
         }
         step.patch(&exhibit.net.into())?;
     }
@@ -274,15 +374,28 @@ fn draw_accuracy(context: &mut Context) -> Result<()> {
         for _ in 0..trials {
             let (surface, net) = random.patch(1.0 - gap)?;
             let Ok(found) = convert(&net) else { continue };
-            let (Some(one), Some(other)) = (surface.as_quartic(), found.surface.as_quartic()) else { continue };
-            let errors = [one.a() - other.a(), one.c() - other.c(), one.mu() - other.mu()];
-            worst = errors.into_iter().fold(worst, |worst, error| worst.max(error.abs() / one.a()));
+            let (Some(one), Some(other)) = (surface.as_quartic(), found.surface.as_quartic())
+            else {
+                continue;
+            };
+            let errors = [
+                one.a() - other.a(),
+                one.c() - other.c(),
+                one.mu() - other.mu(),
+            ];
+            worst = errors
+                .into_iter()
+                .fold(worst, |worst, error| worst.max(error.abs() / one.a()));
             worst_net = worst_net.max(found.residual);
         }
         parameters.push(glam::dvec2(gap, worst));
         nets.push(glam::dvec2(gap, worst_net));
     }
-    let mut plot = Plot::chart("what comes back, and how exactly", "1 − c/a", "largest relative error");
+    let mut plot = Plot::chart(
+        "what comes back, and how exactly",
+        "1 − c/a",
+        "largest relative error",
+    );
     plot.log_x().log_y();
     plot.polyline(&parameters, VERMILION.line().label("a, c, μ"));
     plot.points(&parameters, Marker::Dot, VERMILION.fill());

@@ -31,8 +31,10 @@ struct Animal {
 
 impl Demo for CyclideZoo {
     const NAME: &'static str = "cyclide-zoo";
-    const PAPER: &'static str = "blending-two-cones, Fig. 1 and Plate 1; biquadratic-to-torus, Figs 1 to 5";
-    const ABOUT: &'static str = "Every kind of Dupin cyclide, with circles of curvature and Villarceau circles";
+    const PAPER: &'static str =
+        "blending-two-cones, Fig. 1 and Plate 1; biquadratic-to-torus, Figs 1 to 5";
+    const ABOUT: &'static str =
+        "Every kind of Dupin cyclide, with circles of curvature and Villarceau circles";
 
     fn run(&self, context: &mut Context) -> Result<()> {
         let zoo = zoo()?;
@@ -48,13 +50,24 @@ fn zoo() -> Result<Vec<Animal>> {
     let opened = [-0.22 * PI, 1.22 * PI];
     let quartic = |a: f64, c: f64, mu: f64, first: [f64; 2]| -> Result<Animal> {
         let surface = Dupin::quartic(a, c, mu, Frame::WORLD)?;
-        Ok(Animal { surface, first, second: whole, kind: surface.kind() })
+        Ok(Animal {
+            surface,
+            first,
+            second: whole,
+            kind: surface.kind(),
+        })
     };
     let parabolic = |k: f64| -> Result<Animal> {
         // x up: the two straight lines cross above each other.
-        let frame = Frame::from_directions(DVec3::ZERO, DVec3::Z, DVec3::X).ok_or_else(|| anyhow!("no frame"))?;
+        let frame = Frame::from_directions(DVec3::ZERO, DVec3::Z, DVec3::X)
+            .ok_or_else(|| anyhow!("no frame"))?;
         let surface = Dupin::parabolic(1.0, k, frame)?;
-        Ok(Animal { surface, first: [-1.5, 1.5], second: [-1.5, 1.5], kind: surface.kind() })
+        Ok(Animal {
+            surface,
+            first: [-1.5, 1.5],
+            second: [-1.5, 1.5],
+            kind: surface.kind(),
+        })
     };
     let sphere: Dupin = Quartic::double_sphere(1.0, 0.5, Frame::WORLD)?.into();
     Ok(vec![
@@ -66,7 +79,12 @@ fn zoo() -> Result<Vec<Animal>> {
         quartic(3.0, 0.0, 1.1, whole)?,
         quartic(2.0, 0.0, 2.0, opened)?,
         quartic(1.6, 0.0, 2.6, opened)?,
-        Animal { surface: sphere, first: whole, second: [-0.5 * PI, 0.5 * PI], kind: sphere.kind() },
+        Animal {
+            surface: sphere,
+            first: whole,
+            second: [-0.5 * PI, 0.5 * PI],
+            kind: sphere.kind(),
+        },
         parabolic(0.1)?,
         parabolic(0.5)?,
         parabolic(1.1)?,
@@ -83,34 +101,55 @@ fn measure(context: &mut Context, zoo: &[Animal]) -> Result<()> {
         let net = animal.surface.patch([0.2, 1.1], [0.7, 1.4])?;
         kinds.insert(convert(net.net())?.kind());
         let size = size(&animal.surface);
-        let degree = if animal.surface.as_quartic().is_some() { 4 } else { 3 };
-        let at = |[from, to]: [f64; 2], i: u32| from + (to - from) * f64::from(i) / f64::from(steps);
+        let degree = if animal.surface.as_quartic().is_some() {
+            4
+        } else {
+            3
+        };
+        let at =
+            |[from, to]: [f64; 2], i: u32| from + (to - from) * f64::from(i) / f64::from(steps);
         for i in 0..=steps {
             let (first, second) = (at(animal.first, i), at(animal.second, i));
-            let circles = [animal.surface.first_circle(first), animal.surface.second_circle(second)];
+            let circles = [
+                animal.surface.first_circle(first),
+                animal.surface.second_circle(second),
+            ];
             for j in 0..=steps {
-                let points = [animal.surface.point(first, at(animal.second, j)), animal.surface.point(at(animal.first, j), second)];
+                let points = [
+                    animal.surface.point(first, at(animal.second, j)),
+                    animal.surface.point(at(animal.first, j), second),
+                ];
                 for (point, circle) in points.into_iter().zip(circles) {
                     let offset = point - circle.centre;
                     let height = offset.dot(circle.axis);
                     let in_plane = (offset - height * circle.axis).length();
                     circle_error = circle_error.max(height.hypot(in_plane - circle.radius) / size);
-                    implicit = implicit.max(animal.surface.implicit(point).abs() / (size + point.length()).powi(degree));
+                    implicit = implicit.max(
+                        animal.surface.implicit(point).abs() / (size + point.length()).powi(degree),
+                    );
                 }
             }
         }
     }
     context.number("types", kinds.len(), Target::exactly(12));
     context.number("implicit_max_residual", implicit, Target::AtMost(1e-12));
-    context.number("curvature_circle_max_error", circle_error, Target::AtMost(1e-12));
+    context.number(
+        "curvature_circle_max_error",
+        circle_error,
+        Target::AtMost(1e-12),
+    );
     let ring = plate_one()?;
     let mut villarceau = 0.0_f64;
     for i in 0..steps {
         for sign in [1.0, -1.0] {
             let circle = ring.villarceau_circle(TAU * f64::from(i) / f64::from(steps), sign)?;
             for j in 0..24 {
-                let point = circle.point(TAU * f64::from(j) / 24.0, circle.axis().any_orthonormal_vector())?;
-                villarceau = villarceau.max(Dupin::from(ring).signed_distance(point)?.abs() / size(&ring.into()));
+                let point = circle.point(
+                    TAU * f64::from(j) / 24.0,
+                    circle.axis().any_orthonormal_vector(),
+                )?;
+                villarceau = villarceau
+                    .max(Dupin::from(ring).signed_distance(point)?.abs() / size(&ring.into()));
             }
         }
     }
@@ -131,7 +170,10 @@ fn painted(animal: &Animal, steps: usize) -> Mesh {
     let at = |[from, to]: [f64; 2], t: f64| from + (to - from) * t;
     let mesh = Mesh::grid(steps, steps, |u, v| {
         let (first, second) = (at(animal.first, u), at(animal.second, v));
-        (animal.surface.point(first, second), animal.surface.normal(first, second))
+        (
+            animal.surface.point(first, second),
+            animal.surface.normal(first, second),
+        )
     });
     let size = size(&animal.surface);
     // The grid runs row by row, as Mesh::grid does.
@@ -139,7 +181,9 @@ fn painted(animal: &Animal, steps: usize) -> Mesh {
         .flat_map(|j| (0..=steps).map(move |i| (i, j)))
         .map(|(i, j)| {
             let (u, v) = (i as f64 / steps as f64, j as f64 / steps as f64);
-            let [one, other] = animal.surface.principal_curvatures(at(animal.first, u), at(animal.second, v));
+            let [one, other] = animal
+                .surface
+                .principal_curvatures(at(animal.first, u), at(animal.second, v));
             // Infinite at singular points.
             (one * other * size * size).clamp(-1e3, 1e3)
         })
@@ -160,21 +204,41 @@ fn circles(animal: &Animal, count: u32, thickness: f64) -> [Mesh; 2] {
         let t = f64::from(i) / f64::from(count);
         let (first, second) = (span(animal.first, t), span(animal.second, t));
         if i < count || !is_full(animal.first) {
-            thin.append(line(&|s| animal.surface.point(first, span(animal.second, s)), is_full(animal.second), thickness));
+            thin.append(line(
+                &|s| animal.surface.point(first, span(animal.second, s)),
+                is_full(animal.second),
+                thickness,
+            ));
         }
         if i < count || !is_full(animal.second) {
-            thin.append(line(&|s| animal.surface.point(span(animal.first, s), second), is_full(animal.first), thickness));
+            thin.append(line(
+                &|s| animal.surface.point(span(animal.first, s), second),
+                is_full(animal.first),
+                thickness,
+            ));
         }
     }
     let mut thick = Mesh::default();
     let inside = |[from, to]: [f64; 2], t: f64| from <= t && t <= to;
-    let principal = if animal.surface.as_quartic().is_some() { vec![0.0, PI] } else { vec![0.0] };
+    let principal = if animal.surface.as_quartic().is_some() {
+        vec![0.0, PI]
+    } else {
+        vec![0.0]
+    };
     for t in principal {
         if inside(animal.second, t) {
-            thick.append(line(&|s| animal.surface.point(span(animal.first, s), t), is_full(animal.first), 2.2 * thickness));
+            thick.append(line(
+                &|s| animal.surface.point(span(animal.first, s), t),
+                is_full(animal.first),
+                2.2 * thickness,
+            ));
         }
         if inside(animal.first, t) {
-            thick.append(line(&|s| animal.surface.point(t, span(animal.second, s)), is_full(animal.second), 2.2 * thickness));
+            thick.append(line(
+                &|s| animal.surface.point(t, span(animal.second, s)),
+                is_full(animal.second),
+                2.2 * thickness,
+            ));
         }
     }
     [thin, thick]
@@ -189,11 +253,22 @@ fn draw_zoo(context: &mut Context, zoo: &[Animal]) -> Result<()> {
         let scale = 1.0 / (high - low).x.max((high - low).y).max(0.9 * (high - low).z);
         let (column, row) = ((index % 4) as f64, 2.0 - (index / 4) as f64);
         // Rings lie tilted towards the viewer, so that their holes are seen.
-        let tilt = DQuat::from_rotation_x(if animal.surface.as_quartic().is_some() { 0.55 } else { 0.25 });
+        let tilt = DQuat::from_rotation_x(if animal.surface.as_quartic().is_some() {
+            0.55
+        } else {
+            0.25
+        });
         let middle = 0.5 * (low + high);
-        let map = DAffine3::from_scale_rotation_translation(DVec3::splat(scale), tilt, dvec3(1.16 * column, 0.0, 1.06 * row) - scale * (tilt * middle));
+        let map = DAffine3::from_scale_rotation_translation(
+            DVec3::splat(scale),
+            tilt,
+            dvec3(1.16 * column, 0.0, 1.06 * row) - scale * (tilt * middle),
+        );
         let [thin, thick] = circles(animal, 12, 0.0035 / scale);
-        scene.add(mesh.transformed(map), Material::scalar(ColorMap::Diverging, -12.0, 12.0))?;
+        scene.add(
+            mesh.transformed(map),
+            Material::scalar(ColorMap::Diverging, -12.0, 12.0),
+        )?;
         scene.add(thin.transformed(map), Material::matte(INK))?;
         scene.add(thick.transformed(map), Material::matte(GREEN))?;
     }
@@ -219,21 +294,33 @@ fn draw_villarceau(context: &mut Context) -> Result<()> {
     let surface = Dupin::from(ring);
     let steps = context.pick(420, 100);
     let mut scene = Scene::new();
-    let body = Mesh::grid(steps, steps, |u, v| (surface.point(TAU * u, TAU * v), surface.normal(TAU * u, TAU * v)));
+    let body = Mesh::grid(steps, steps, |u, v| {
+        (
+            surface.point(TAU * u, TAU * v),
+            surface.normal(TAU * u, TAU * v),
+        )
+    });
     scene.add(body, Material::matte(Color::hex(0xe9e4da)))?;
     let point = ring.point(-1.3, 2.3);
     let through = ring.villarceau_circles_at(point)?;
     let samples = 360_u32;
     let on = |circle: &lorentz::Circle| -> Result<Vec<DVec3>> {
         let start = circle.axis().any_orthonormal_vector();
-        (0..samples).map(|i| Ok(circle.point(TAU * f64::from(i) / f64::from(samples), start)?)).collect()
+        (0..samples)
+            .map(|i| Ok(circle.point(TAU * f64::from(i) / f64::from(samples), start)?))
+            .collect()
     };
     for (circle, color) in through.iter().zip([BLUE, VERMILION]) {
-        scene.add(Mesh::tube(&on(circle)?, 0.035, true), Material::glossy(color))?;
+        scene.add(
+            Mesh::tube(&on(circle)?, 0.035, true),
+            Material::glossy(color),
+        )?;
     }
     let lines = [ring.theta_circle(-1.3), ring.psi_circle(2.3)];
     for circle in lines {
-        let points: Vec<DVec3> = (0..samples).map(|i| circle.point(TAU * f64::from(i) / f64::from(samples))).collect();
+        let points: Vec<DVec3> = (0..samples)
+            .map(|i| circle.point(TAU * f64::from(i) / f64::from(samples)))
+            .collect();
         scene.add(Mesh::tube(&points, 0.02, true), Material::matte(INK))?;
     }
     // Along the first circle: the ruling is the direction conjugate to the circle's tangent, II(tangent, ruling) = 0.
@@ -245,7 +332,8 @@ fn draw_villarceau(context: &mut Context) -> Result<()> {
             let [along_theta, along_psi] = ring.principal_directions(theta, psi);
             let [kappa, other] = ring.principal_curvatures(theta, psi);
             let tangent = through[0].axis().cross(point - through[0].centre());
-            let ruling = along_psi * (kappa * tangent.dot(along_theta)) - along_theta * (other * tangent.dot(along_psi));
+            let ruling = along_psi * (kappa * tangent.dot(along_theta))
+                - along_theta * (other * tangent.dot(along_psi));
             (point, ruling.normalize_or_zero(), ring.normal(theta, psi))
         })
         .collect();
@@ -255,14 +343,25 @@ fn draw_villarceau(context: &mut Context) -> Result<()> {
     let cycle: Vec<_> = rulings.iter().chain(rulings.first()).collect();
     let width = 14;
     for &&(point, ruling, normal) in &cycle {
-        let ruling = if ruling.dot(previous) < 0.0 { -ruling } else { ruling };
+        let ruling = if ruling.dot(previous) < 0.0 {
+            -ruling
+        } else {
+            ruling
+        };
         previous = ruling;
         for k in 0..=width {
-            positions.push(point + ruling * 1.1 * (2.0 * f64::from(k) / f64::from(width) - 1.0) + 0.004 * normal);
+            positions.push(
+                point
+                    + ruling * 1.1 * (2.0 * f64::from(k) / f64::from(width) - 1.0)
+                    + 0.004 * normal,
+            );
             normals.push(normal);
         }
     }
-    scene.add(Mesh::from_rows(width as usize + 1, positions, normals), Material::glossy(Color::hex(0x9cc9c0)))?;
+    scene.add(
+        Mesh::from_rows(width as usize + 1, positions, normals),
+        Material::glossy(Color::hex(0x9cc9c0)),
+    )?;
     scene.ground_below();
     let camera = scene.camera(dvec3(0.25, -1.0, 0.75), context.aspect());
     context.render(

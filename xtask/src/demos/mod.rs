@@ -106,15 +106,12 @@ use crate::demo::{Entry, entry};
 pub fn all() -> Vec<Entry> {
     vec![
         // entry::<anisotropic::Anisotropic>(),
-
         entry::<biquadratic::BiquadraticDemo>(),
-
         // entry::<caustics::Caustics>(),
         entry::<cone::Cone>(),
         entry::<cone_blend::ConeBlend>(),
         entry::<cyclide_to_cone::CyclideToCone>(),
         entry::<cyclide_zoo::CyclideZoo>(),
-
         // entry::<dual_control::DualControl>(),
 
         // entry::<geodesic::Geodesic>(),

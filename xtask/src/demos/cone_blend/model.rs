@@ -21,17 +21,34 @@ pub(super) struct Model {
 impl Model {
     /// The shorter of the usable tubes of a blend, with cones that go on beyond it.
     pub(super) fn new(blend: Blend, cones: [Cone; 2]) -> Result<Self> {
-        let tubes = blend.tubes().ok_or_else(|| anyhow!("a singular point lies on a contact circle"))?;
+        let tubes = blend
+            .tubes()
+            .ok_or_else(|| anyhow!("a singular point lies on a contact circle"))?;
         let tube = tubes
             .into_iter()
             .filter(|tube| !tube.is_unbounded())
             // A smooth tube goes before one with a singular point, a short one before a long one.
-            .min_by(|one, other| (!one.is_smooth(), span(one)).partial_cmp(&(!other.is_smooth(), span(other))).unwrap_or(std::cmp::Ordering::Equal))
+            .min_by(|one, other| {
+                (!one.is_smooth(), span(one))
+                    .partial_cmp(&(!other.is_smooth(), span(other)))
+                    .unwrap_or(std::cmp::Ordering::Equal)
+            })
             .ok_or_else(|| anyhow!("both tubes pass through infinity"))?;
         let contacts = blend.contacts();
-        let radius = contacts.iter().map(|contact| contact.circle.radius).fold(0.0, f64::max);
-        let apart = contacts[0].circle.centre.distance(contacts[1].circle.centre);
-        Ok(Self { blend, tube, cones, length: (1.3 * radius).max(0.6 * apart) })
+        let radius = contacts
+            .iter()
+            .map(|contact| contact.circle.radius)
+            .fold(0.0, f64::max);
+        let apart = contacts[0]
+            .circle
+            .centre
+            .distance(contacts[1].circle.centre);
+        Ok(Self {
+            blend,
+            tube,
+            cones,
+            length: (1.3 * radius).max(0.6 * apart),
+        })
     }
 
     /// The tube.
@@ -42,7 +59,11 @@ impl Model {
                 |u, v| {
                     let along = from + (to - from) * u;
                     // The full circle: an angle, or a line through infinity.
-                    let around = if surface.as_quartic().is_some() { TAU * v } else { (0.5 * TAU * (v - 0.5)).tan() };
+                    let around = if surface.as_quartic().is_some() {
+                        TAU * v
+                    } else {
+                        (0.5 * TAU * (v - 0.5)).tan()
+                    };
                     let (first, second) = match self.tube.contact_family() {
                         ContactFamily::Theta | ContactFamily::U => (along, around),
                         ContactFamily::Psi | ContactFamily::V => (around, along),
@@ -78,7 +99,10 @@ impl Model {
                     let (s, c) = (TAU * v).sin_cos();
                     let radial = c * across + s * other;
                     // On the far nappe the radius is negative, and so the normal changes side.
-                    (cone.point() + height * cone.axis() + radius * radial, nappe * (cos * radial - sin * cone.axis()))
+                    (
+                        cone.point() + height * cone.axis() + radius * radial,
+                        nappe * (cos * radial - sin * cone.axis()),
+                    )
                 },
                 tolerance,
             )
@@ -88,7 +112,9 @@ impl Model {
     /// The contact circles as thin rings.
     pub(super) fn rings(&self, thickness: f64) -> Mesh {
         Mesh::merged(self.blend.contacts().iter().map(|contact| {
-            let points: Vec<DVec3> = (0..160).map(|i| contact.circle.point(TAU * f64::from(i) / 160.0)).collect();
+            let points: Vec<DVec3> = (0..160)
+                .map(|i| contact.circle.point(TAU * f64::from(i) / 160.0))
+                .collect();
             Mesh::tube(&points, thickness, true)
         }))
     }
@@ -96,7 +122,10 @@ impl Model {
     /// The tube as exact rational biquadratic patches.
     pub(super) fn step(&self, name: &str) -> Result<Step> {
         let mut step = Step::new(name);
-        for patch in self.tube.positive_patches(cyclide::tolerance::POSITIVE_WEIGHT)? {
+        for patch in self
+            .tube
+            .positive_patches(cyclide::tolerance::POSITIVE_WEIGHT)?
+        {
             step.patch(&(*patch.net()).into())?;
         }
         Ok(step)
@@ -109,5 +138,8 @@ impl Model {
 }
 
 fn span(tube: &Tube) -> f64 {
-    tube.spans().iter().map(|[from, to]| (to - from).abs()).sum()
+    tube.spans()
+        .iter()
+        .map(|[from, to]| (to - from).abs())
+        .sum()
 }

@@ -42,18 +42,27 @@ pub(super) fn search(cones: [&Cone; 2], plane_normal: DVec3, height: f64, size: 
     for orientation in [1.0, -1.0] {
         let second = skeletal(cones[1], plane_normal, orientation);
         for pairing in [[0, 1], [1, 0]] {
-            let pairs = [(first[0], second[pairing[0]]), (first[1], second[pairing[1]])];
+            let pairs = [
+                (first[0], second[pairing[0]]),
+                (first[1], second[pairing[1]]),
+            ];
             let equations = pairs.map(|(one, other)| equation(one, other, plane_normal, height));
             // The better conditioned equation is solved, the other one checked.
             let steepness = |(rate, _): &(f64, f64)| rate.abs();
-            let (solve, check) =
-                if steepness(&equations[0]) >= steepness(&equations[1]) { (equations[0], equations[1]) } else { (equations[1], equations[0]) };
+            let (solve, check) = if steepness(&equations[0]) >= steepness(&equations[1]) {
+                (equations[0], equations[1])
+            } else {
+                (equations[1], equations[0])
+            };
             if solve.0.abs() < 1e-9 {
                 continue;
             }
             let other = -solve.1 / solve.0;
             let near = 1e-7 * (size + other.abs() + height.abs());
-            let spheres = [sphere(cones[0], 1.0, height), sphere(cones[1], orientation, other)];
+            let spheres = [
+                sphere(cones[0], 1.0, height),
+                sphere(cones[1], orientation, other),
+            ];
             let [(centre, radius), (other_centre, other_radius)] = spheres;
             let apart = centre.distance(other_centre);
             let touch = (apart - (radius - other_radius).abs()).abs() <= near;
@@ -69,7 +78,10 @@ pub(super) fn search(cones: [&Cone; 2], plane_normal: DVec3, height: f64, size: 
 fn sphere(cone: &Cone, orientation: f64, height: f64) -> (DVec3, f64) {
     let (sin, cos) = cone.half_angle().sin_cos();
     let along = (height + cone.radius() * sin) / (cos * cos);
-    (cone.point() + along * cone.axis(), orientation * (cone.radius() + along * sin))
+    (
+        cone.point() + along * cone.axis(),
+        orientation * (cone.radius() + along * sin),
+    )
 }
 
 /// The linear equation `rate * h + constant = 0` for the height `h` on the second cone.
@@ -77,7 +89,11 @@ fn equation(one: Touch, other: Touch, plane_normal: DVec3, height: f64) -> (f64,
     let point = one.at + height * one.along;
     let difference = one.normal - other.normal;
     // Equal normals: both points are on one line, whatever the height, or never.
-    let direction = if difference.length() < 1e-7 { plane_normal.cross(one.normal) } else { difference.normalize() };
+    let direction = if difference.length() < 1e-7 {
+        plane_normal.cross(one.normal)
+    } else {
+        difference.normalize()
+    };
     let across = |v: DVec3| v.cross(direction).dot(plane_normal);
     (across(-other.along), across(point - other.at))
 }
