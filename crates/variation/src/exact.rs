@@ -43,6 +43,16 @@ impl Exact {
 }
 
 impl Exact {
+    /// The nearest `f64`, unless that is subnormal.
+    pub(crate) fn nearest(&self) -> f64 {
+        let shift = self.mantissa.bits().saturating_sub(64);
+        let top = (self.mantissa.magnitude() >> shift).iter_u64_digits().next().unwrap_or(0);
+        // Bits below the 64 kept only matter as "more than a half": one sticky bit stands for them.
+        let sticky = self.mantissa.trailing_zeros().is_some_and(|zeros| zeros < shift);
+        let magnitude = scale_by_power((top | u64::from(sticky)) as f64, self.exponent + shift as i64);
+        if self.mantissa.sign() == Sign::Minus { -magnitude } else { magnitude }
+    }
+
     /// For a number of `[0, 1]`: itself and its complement to 1, in the same unit.
     pub(crate) fn share(&self) -> (BigInt, BigInt) {
         let unit = BigInt::from(1) << self.exponent.min(0).unsigned_abs();

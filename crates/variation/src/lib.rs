@@ -39,7 +39,7 @@ pub use num_bigint::BigInt;
 pub use num_rational::BigRational;
 pub use polar::{Affine, blossom, polar_derivative, polar_derivatives};
 #[cfg(feature = "exact")]
-pub use rational::{ExactCurve, ExactPolynomial, ExactRoot};
+pub use rational::{ExactCurve, ExactPolynomial, ExactRoot, to_power_form};
 pub use root::{Count, Interval, Root, Roots};
 pub use sign_changes::{
     Signed, descartes_changes, sign_changes, sign_changes_by_parity, sign_changes_left,

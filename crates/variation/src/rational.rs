@@ -5,11 +5,11 @@ use num_rational::BigRational;
 
 use crate::Error;
 use crate::arithmetic::{Number, binomial, compose};
-use crate::exact::Decomposition;
+use crate::exact::{Decomposition, Exact};
 
 impl Number for BigRational {
     fn exactly(x: f64) -> Self {
-        crate::exact::Exact::exactly(x).to_rational()
+        Exact::exactly(x).to_rational()
     }
 
     fn sum(&self, other: &Self) -> Self {
@@ -205,4 +205,27 @@ impl ExactCurve {
         row.pop()
             .map_or_else(|| self.points[0].clone(), |[x, y, w]| [x / &w, y / &w])
     }
+}
+
+/// The power coefficients on `[0, 1]` of a polynomial in Bernstein form, formed exactly and rounded once each.
+///
+/// The rounding moves roots, and ill-conditioned ones by much: this is for comparison with solvers in the power basis.
+///
+/// # Errors
+/// [`Error::NoCoefficients`], [`Error::NotFinite`].
+pub fn to_power_form(coefficients: &[f64]) -> Result<Vec<f64>, Error> {
+    let degree = coefficients.len().checked_sub(1).ok_or(Error::NoCoefficients)?;
+    if let Some(index) = coefficients.iter().position(|p| !p.is_finite()) {
+        return Err(Error::NotFinite { index, value: coefficients[index] });
+    }
+    let mut row: Vec<Exact> = coefficients.iter().map(|p| Exact::exactly(*p)).collect();
+    let mut power = Vec::with_capacity(degree + 1);
+    for k in 0..=degree {
+        // The k-th difference at 0, times C(n, k).
+        if let Some(first) = row.first() {
+            power.push(first.times(binomial(degree, k)).nearest());
+        }
+        row = row.windows(2).map(|p| p[1].difference(&p[0])).collect();
+    }
+    Ok(power)
 }

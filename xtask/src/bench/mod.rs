@@ -51,7 +51,7 @@ mod geodesic;
 
 mod render;
 
-// mod variation;
+mod variation;
 
 // mod wavefront;
 
@@ -68,7 +68,7 @@ pub fn all() -> Vec<Entry> {
 
         // entry::<reconstruct::Reconstruct>(),
         entry::<render::Render>(),
-        // entry::<variation::Variation>(),
+        entry::<variation::Variation>(),
 
         // entry::<wavefront::Wavefront>(),
     ]
