@@ -91,36 +91,31 @@ impl SturmChain {
         ends + at_lo + self.variations(lo).saturating_sub(self.variations(hi))
     }
 
+    /// `Z`: the number of roots in `[0, 1]` with multiplicity.
+    #[must_use]
+    pub fn root_count(&self) -> usize {
+        // A root of multiplicity m occurs on m levels.
+        let inner: usize = self.levels().map(|level| level.distinct_roots(0.0, 1.0)).sum();
+        inner + (self.at_zero + self.at_one) as usize
+    }
+
     /// The multiplicity of the only root in `[lo, hi]`, or the largest one there.
     #[must_use]
     pub fn multiplicity(&self, lo: f64, hi: f64) -> u32 {
-        let mut multiplicity =
-            if lo <= 0.0 { self.at_zero } else { 0 }.max(if hi >= 1.0 { self.at_one } else { 0 });
-        let mut level = Some(self.clone());
-        let mut depth = 0;
-        // A root of multiplicity m is one of the greatest common divisors of f and f', m - 1 levels deep.
-        while let Some(current) = level {
-            let inner = Self {
-                at_zero: 0,
-                at_one: 0,
-                ..current
-            };
-            if inner.distinct_roots(lo, hi) == 0 {
-                break;
-            }
-            depth += 1;
-            level = inner
-                .chain
-                .last()
-                .filter(|divisor| divisor.len() > 1)
-                .map(|divisor| Self {
-                    chain: chain(divisor.clone()),
-                    at_zero: 0,
-                    at_one: 0,
-                });
-        }
-        multiplicity = multiplicity.max(depth);
-        multiplicity
+        let at_zero = if lo <= 0.0 { self.at_zero } else { 0 };
+        let at_one = if hi >= 1.0 { self.at_one } else { 0 };
+        let inner = self.levels().take_while(|level| level.distinct_roots(lo, hi) > 0).count() as u32;
+        at_zero.max(at_one).max(inner)
+    }
+
+    /// The chains of `f`, of the greatest common divisor of `f` and `f'`, of that of the divisor and its derivative, and so on,
+    /// without the roots at the ends: a root of multiplicity `m` occurs on `m` levels.
+    fn levels(&self) -> impl Iterator<Item = Self> {
+        let inner = |chain: Vec<Vec<BigInt>>| Self { chain, at_zero: 0, at_one: 0 };
+        std::iter::successors(Some(inner(self.chain.clone())), move |level| {
+            let divisor = level.chain.last().filter(|divisor| divisor.len() > 1)?;
+            Some(inner(chain(divisor.clone())))
+        })
     }
 
     /// Compares a solver's answer with the truth.

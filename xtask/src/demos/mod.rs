@@ -93,7 +93,7 @@ mod seahorse;
 
 // mod t_quartic;
 
-// mod variation;
+mod variation;
 
 // mod wavefront;
 
@@ -136,7 +136,7 @@ pub fn all() -> Vec<Entry> {
 
         // entry::<t_quartic::TQuartic>(),
 
-        // entry::<variation::Variation>(),
+        entry::<variation::Variation>(),
 
         // entry::<wavefront::Wavefront>(),
 
