@@ -46,11 +46,24 @@ impl Exact {
     /// The nearest `f64`, unless that is subnormal.
     pub(crate) fn nearest(&self) -> f64 {
         let shift = self.mantissa.bits().saturating_sub(64);
-        let top = (self.mantissa.magnitude() >> shift).iter_u64_digits().next().unwrap_or(0);
+        let top = (self.mantissa.magnitude() >> shift)
+            .iter_u64_digits()
+            .next()
+            .unwrap_or(0);
         // Bits below the 64 kept only matter as "more than a half": one sticky bit stands for them.
-        let sticky = self.mantissa.trailing_zeros().is_some_and(|zeros| zeros < shift);
-        let magnitude = scale_by_power((top | u64::from(sticky)) as f64, self.exponent + shift as i64);
-        if self.mantissa.sign() == Sign::Minus { -magnitude } else { magnitude }
+        let sticky = self
+            .mantissa
+            .trailing_zeros()
+            .is_some_and(|zeros| zeros < shift);
+        let magnitude = scale_by_power(
+            (top | u64::from(sticky)) as f64,
+            self.exponent + shift as i64,
+        );
+        if self.mantissa.sign() == Sign::Minus {
+            -magnitude
+        } else {
+            magnitude
+        }
     }
 
     /// For a number of `[0, 1]`: itself and its complement to 1, in the same unit.

@@ -1,21 +1,24 @@
 //! Degrees 1 to 5 on a direct path: everything in registers, sizes known to the compiler.
 //!
 //! Linear and quadratic polynomials have formulas whose rounding is bounded here. The others are split where Descartes' count
-//! is not yet 0 or 1 (a cubic at its extremum) and refined by Halley's method on the original coefficients; two certain signs
+//! is not yet 0 or 1 (a cubic at its extremum) and refined by Householder's method on the original coefficients; two certain signs
 //! close each enclosure. Whatever is uncertain returns `None`, and the general path takes over.
 
-use crate::rounding::U;
+use crate::rounding::{SAFE_LEAST, SAFE_MOST, U};
+
+/// The highest degree of the direct path.
+pub(crate) const MAX_DEGREE: usize = 5;
 
 /// Roots of one polynomial: ascending enclosures.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Enclosures<const N: usize> {
-    pub(crate) spans: [(f64, f64); N],
-    pub(crate) len: usize,
+pub(crate) struct Enclosures {
+    spans: [(f64, f64); MAX_DEGREE],
+    len: usize,
 }
 
-impl<const N: usize> Enclosures<N> {
+impl Enclosures {
     const NONE: Self = Self {
-        spans: [(0.0, 0.0); N],
+        spans: [(0.0, 0.0); MAX_DEGREE],
         len: 0,
     };
 
@@ -25,10 +28,40 @@ impl<const N: usize> Enclosures<N> {
         self.len += 1;
         Some(())
     }
+
+    pub(crate) fn as_slice(&self) -> &[(f64, f64)] {
+        &self.spans[..self.len]
+    }
+}
+
+/// The direct path. `None` for other degrees, zeros at the ends, numbers out of range, and where it cannot decide.
+#[inline]
+pub(crate) fn solve(coefficients: &[f64], tolerance: f64) -> Option<Enclosures> {
+    match *coefficients {
+        [a, b] => checked(&[a, b]).map(|_| linear([a, b])),
+        [a, b, c] => checked(&[a, b, c]).and_then(|_| quadratic([a, b, c], tolerance)),
+        [a, b, c, d] => roots(&[a, b, c, d], tolerance),
+        [a, b, c, d, e] => roots(&[a, b, c, d, e], tolerance),
+        [a, b, c, d, e, f] => roots(&[a, b, c, d, e, f], tolerance),
+        _ => None,
+    }
+}
+
+/// The largest magnitude, if the ends are not zero and nothing can overflow or underflow.
+#[inline]
+fn checked<const M: usize>(p: &[f64; M]) -> Option<f64> {
+    let mut largest = 0.0_f64;
+    let mut finite = true;
+    for x in p {
+        // A comparison with NaN is false.
+        finite &= x.abs() <= SAFE_MOST;
+        largest = if x.abs() > largest { x.abs() } else { largest };
+    }
+    (finite && largest >= SAFE_LEAST && p[0] != 0.0 && p[M - 1] != 0.0).then_some(largest)
 }
 
 /// The root of a linear polynomial whose coefficients have opposite signs. Two roundings, no cancellation.
-pub(crate) fn linear([a, b]: [f64; 2]) -> Enclosures<2> {
+fn linear([a, b]: [f64; 2]) -> Enclosures {
     let mut found = Enclosures::NONE;
     if (a < 0.0) != (b < 0.0) {
         let t = a / (a - b);
@@ -47,7 +80,7 @@ fn around(t: f64, relative: f64) -> (f64, f64) {
 ///
 /// In `r = t / (1-t)` it is `c r^2 + 2 b r + a`; both roots come from `q = -(b + sign(b) sqrt(d))` as `q / c` and `a / q`, which
 /// do not cancel.
-pub(crate) fn quadratic([a, b, c]: [f64; 3], tolerance: f64) -> Option<Enclosures<2>> {
+fn quadratic([a, b, c]: [f64; 3], tolerance: f64) -> Option<Enclosures> {
     let mut found = Enclosures::NONE;
     let opposite = (a < 0.0) != (c < 0.0);
     if !opposite && (b == 0.0 || (a < 0.0) == (b < 0.0)) {
@@ -96,6 +129,8 @@ struct Small<const M: usize> {
     first: [f64; M],
     /// Likewise of the second derivative; the last two entries are unused.
     second: [f64; M],
+    /// Likewise of the third derivative.
+    third: [f64; M],
     /// Bound on the error of a value.
     error: f64,
 }
@@ -119,6 +154,7 @@ impl<const M: usize> Small<M> {
         let mut scaled = [0.0; M];
         let mut first = [0.0; M];
         let mut second = [0.0; M];
+        let mut third = [0.0; M];
         for i in 0..M {
             scaled[i] = BINOMIALS[n][i] * p[i];
         }
@@ -128,32 +164,38 @@ impl<const M: usize> Small<M> {
         for i in 0..n - 1 {
             second[i] = (first[i + 1] - first[i]) * (n - 1) as f64;
         }
+        for i in 0..n - 2 {
+            third[i] = (second[i + 1] - second[i]) * (n - 2) as f64 * BINOMIALS[n - 3][i];
+        }
         for i in 0..n {
             first[i] *= BINOMIALS[n - 1][i];
         }
         for i in 0..n - 1 {
             second[i] *= BINOMIALS[n - 2][i];
         }
-        // A term c_i t^i (1-t)^(n-i) goes through at most 3 n + 1 roundings (i - 1 products of t, one with c_i, one of c_i
-        // itself, and in each later step 1 - t, a product and a sum); the terms sum to at most the largest coefficient.
+        // A term c_i t^i (1-t)^(n-i) meets at most 3 n + 1 roundings: one in c_i, one in each 1 - t, and one for each product
+        // and sum on its way. The terms sum to at most the largest coefficient.
         Self {
             scaled,
             first,
             second,
+            third,
             error: (3 * n + 3) as f64 * U * largest,
         }
     }
 
-    /// `sum c_i t^i s^(k-i)` for `i = 0..=k`.
+    /// `sum c_i t^i s^(k-i)` for `i = 0..=k`, arranged for short chains of operations.
     #[inline]
     fn sum(c: &[f64; M], k: usize, t: f64, s: f64) -> f64 {
-        let mut power = t;
-        let mut sum = c[0];
-        for &c in &c[1..=k] {
-            sum = sum * s + c * power;
-            power *= t;
+        let pair = |i: usize| c[i] * s + c[i + 1] * t;
+        match k {
+            0 => c[0],
+            1 => pair(0),
+            2 => pair(0) * s + c[2] * (t * t),
+            3 => pair(0) * (s * s) + pair(2) * (t * t),
+            4 => (pair(0) * s + c[2] * (t * t)) * (s * s) + pair(3) * (t * t * t),
+            _ => (pair(0) * (s * s) + pair(2) * (t * t)) * (s * s) + pair(4) * ((t * t) * (t * t)),
         }
-        sum
     }
 
     #[inline]
@@ -189,34 +231,32 @@ impl<const M: usize> Small<M> {
             } else {
                 hi = x;
             }
-            let step = 2.0 * value * first / (2.0 * first * first - value * second);
+            let third = Self::sum(&self.third, Self::DEGREE - 3, x, s);
+            // Householder's method of order four: the slope of f / (1/f)''.
+            let (square, product) = (first * first, value * second);
+            let numerator = value * (6.0 * square - 3.0 * product);
+            let step = numerator / (6.0 * first * (square - product) + value * value * third);
             let next = x - step;
             if !(next >= lo && next <= hi) {
                 x = 0.5 * (lo + hi);
                 continue;
             }
             x = next;
-            if step.abs() > 1e-4 {
+            let slope = first.abs();
+            let bend = (second.abs() + third.abs() * step.abs()) * step.abs();
+            // The error of the method is about the step times the cube of its relative bend.
+            if bend * bend * bend * step.abs() > 0.1 * tolerance * (slope * slope * slope) {
                 continue;
             }
-            // Halley's error is about the cube of the step times the square of the curvature.
-            let bend = 0.5 * second.abs() * step.abs();
-            let slope = first.abs();
-            let reach = (4.0 * self.error + bend * bend * step.abs() / slope) / slope + 4.0 * U;
+            let reach = (4.0 * self.error) / slope + (4.0 * U + 0.2 * tolerance);
             if reach > 0.45 * tolerance {
-                if step.abs() < 1e-9 {
-                    return None;
-                }
-                continue;
+                return None;
             }
             let (left, right) = ((x - reach).max(bracket.0), (x + reach).min(bracket.1));
             let certain_left = left == bracket.0 || self.is_negative(left) == Some(negative_lo);
             let certain_right = right == bracket.1 || self.is_negative(right) == Some(!negative_lo);
             if certain_left && certain_right {
                 return Some((left, right));
-            }
-            if step.abs() < 1e-9 {
-                return None;
             }
         }
         None
@@ -244,13 +284,10 @@ struct Piece<const M: usize> {
 const MAX_PIECES: usize = 4;
 const MAX_SPLITS: usize = 6;
 
-/// The roots of a polynomial of degree 3 to 5 with nonzero ends and the given largest magnitude.
+/// The roots of a polynomial of degree 3 to 5.
 #[inline]
-pub(crate) fn roots<const M: usize>(
-    p: &[f64; M],
-    largest: f64,
-    tolerance: f64,
-) -> Option<Enclosures<M>> {
+fn roots<const M: usize>(p: &[f64; M], tolerance: f64) -> Option<Enclosures> {
+    let largest = checked(p)?;
     let mut found = Enclosures::NONE;
     // A zero coefficient takes part with either sign: that can only raise the count, by an even number.
     let changes = sign_changes(p);

@@ -214,9 +214,15 @@ impl ExactCurve {
 /// # Errors
 /// [`Error::NoCoefficients`], [`Error::NotFinite`].
 pub fn to_power_form(coefficients: &[f64]) -> Result<Vec<f64>, Error> {
-    let degree = coefficients.len().checked_sub(1).ok_or(Error::NoCoefficients)?;
+    let degree = coefficients
+        .len()
+        .checked_sub(1)
+        .ok_or(Error::NoCoefficients)?;
     if let Some(index) = coefficients.iter().position(|p| !p.is_finite()) {
-        return Err(Error::NotFinite { index, value: coefficients[index] });
+        return Err(Error::NotFinite {
+            index,
+            value: coefficients[index],
+        });
     }
     let mut row: Vec<Exact> = coefficients.iter().map(|p| Exact::exactly(*p)).collect();
     let mut power = Vec::with_capacity(degree + 1);

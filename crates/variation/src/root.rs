@@ -176,6 +176,29 @@ impl Roots {
     }
 }
 
+impl FromIterator<Root> for Roots {
+    fn from_iter<I: IntoIterator<Item = Root>>(roots: I) -> Self {
+        let mut out = Self {
+            inline: [Root::NONE; INLINE],
+            len: 0,
+            spill: Vec::new(),
+        };
+        for root in roots {
+            match out.inline.get_mut(out.len) {
+                Some(slot) => *slot = root,
+                None => {
+                    if out.spill.is_empty() {
+                        out.spill.extend_from_slice(&out.inline);
+                    }
+                    out.spill.push(root);
+                }
+            }
+            out.len += 1;
+        }
+        out
+    }
+}
+
 impl Deref for Roots {
     type Target = [Root];
 

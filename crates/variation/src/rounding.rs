@@ -15,6 +15,24 @@ pub(crate) const MAX_FLOAT_DEGREE: usize = 64;
 /// more to underflow (`2^-1074`) than a rounding error that is counted anyway (`2^-453` and above).
 pub(crate) const SAFE_EXPONENT: i32 = 400;
 
+/// `2^-400`, see [`SAFE_EXPONENT`].
+pub(crate) const SAFE_LEAST: f64 = power_of_two(-SAFE_EXPONENT);
+/// `2^400`.
+pub(crate) const SAFE_MOST: f64 = power_of_two(SAFE_EXPONENT);
+
+/// `2^exponent`, for normal numbers.
+pub(crate) const fn power_of_two(exponent: i32) -> f64 {
+    let biased = exponent + 1023;
+    let biased = if biased < 1 {
+        1
+    } else if biased > 2046 {
+        2046
+    } else {
+        biased
+    };
+    f64::from_bits((biased as u64) << 52)
+}
+
 /// `C(n, i)` for `n <= 64`, each rounded once.
 pub(crate) static BINOMIALS: [[f64; MAX_FLOAT_DEGREE + 1]; MAX_FLOAT_DEGREE + 1] = binomials(false);
 

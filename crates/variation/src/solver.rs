@@ -6,6 +6,7 @@ use crate::exact::{self, Decomposition};
 use crate::isolate::{self, Finding, Findings, Node, Values, node_capacity, rows_len};
 use crate::low_degree;
 use crate::root::{Count, INLINE, Interval, Root, Roots};
+use crate::rounding::power_of_two;
 use crate::rounding::{BINOMIALS, Evaluator, MAX_FLOAT_DEGREE, SAFE_EXPONENT, U, evaluator_len};
 use crate::sharp::{Sharp, sharp_len};
 use crate::subdivision::{self, Coefficient};
@@ -39,6 +40,9 @@ pub fn roots(coefficients: &[f64]) -> Result<Roots, Error> {
 /// As [`roots`].
 pub fn roots_on(coefficients: &[f64], interval: Interval) -> Result<Roots, Error> {
     const N: usize = INLINE;
+    if let Some(found) = low_degree::solve(coefficients, DEFAULT_TOLERANCE) {
+        return Ok(roots_of_spans(&found, interval).collect());
+    }
     if coefficients.len() > N + 1 {
         return Solver::new()
             .roots_on(coefficients, interval)
@@ -62,6 +66,18 @@ pub fn roots_on(coefficients: &[f64], interval: Interval) -> Result<Roots, Error
         scratch,
     )?;
     Ok(Roots::from_slice(&roots[..len]))
+}
+
+/// Simple roots, mapped to the interval.
+#[inline]
+fn roots_of_spans(
+    found: &low_degree::Enclosures,
+    interval: Interval,
+) -> impl Iterator<Item = Root> + '_ {
+    found.as_slice().iter().map(move |&(lo, hi)| {
+        let (lo, hi) = interval.image(lo, hi);
+        Root::exactly(lo, hi, 1)
+    })
 }
 
 /// A polynomial as the algorithm sees it.
@@ -212,6 +228,11 @@ impl Solver {
     /// # Errors
     /// As [`crate::roots`].
     pub fn roots_on(&mut self, coefficients: &[f64], interval: Interval) -> Result<&[Root], Error> {
+        if let Some(found) = low_degree::solve(coefficients, self.options.tolerance) {
+            self.roots.clear();
+            self.roots.extend(roots_of_spans(&found, interval));
+            return Ok(&self.roots);
+        }
         self.solve(&Input::exactly(coefficients), interval)
     }
 
@@ -221,13 +242,14 @@ impl Solver {
         interval: Interval,
     ) -> Result<&[Root], Error> {
         let degree = input.coefficients.len().saturating_sub(1);
-        if self.roots.len() < roots_capacity(degree) {
+        if self.findings.len() < node_capacity(degree) {
             self.numbers
                 .resize(numbers_len(degree.min(MAX_FLOAT_DEGREE)), 0.0);
             self.waiting.resize(node_capacity(degree), Node::NONE);
             self.findings.resize(node_capacity(degree), Finding::NONE);
-            self.roots.resize(roots_capacity(degree), Root::NONE);
         }
+        self.roots
+            .resize(self.roots.len().max(roots_capacity(degree)), Root::NONE);
         let scratch = Scratch {
             numbers: &mut self.numbers,
             waiting: &mut self.waiting,
@@ -251,31 +273,6 @@ fn solve(
     if input.zeros.0 == coefficients.len() {
         return Err(Error::IdenticallyZero);
     }
-    if input.error == 0.0 && input.zeros == (0, 0) && coefficients.len() <= 6 {
-        let mut list = List {
-            roots: &mut *scratch.roots,
-            len: 0,
-            interval,
-        };
-        if list
-            .low_degree(coefficients, largest, options.tolerance)
-            .is_some()
-        {
-            return Ok(list.len);
-        }
-    }
-    solve_general(input, largest, interval, options, scratch)
-}
-
-/// Any degree.
-fn solve_general(
-    input: &Input<'_>,
-    largest: f64,
-    interval: Interval,
-    options: Options,
-    scratch: Scratch<'_>,
-) -> Result<usize, Error> {
-    let coefficients = input.coefficients;
     let certain = |p: Option<&f64>| p.is_some_and(|p| p.abs() > input.error);
     let (at_zero, at_one) = input.zeros;
     let inner = &coefficients[at_zero..coefficients.len() - at_one];
@@ -485,10 +482,6 @@ impl Fixed {
     }
 }
 
-/// `2^-400` and `2^400`, see [`SAFE_EXPONENT`].
-const SAFE_LEAST: f64 = power_of_two(-SAFE_EXPONENT);
-const SAFE_MOST: f64 = power_of_two(SAFE_EXPONENT);
-
 /// The exponent of the leading bit of a positive number.
 fn exponent_of(x: f64) -> i32 {
     let biased = ((x.to_bits() >> 52) & 0x7ff) as i32;
@@ -497,19 +490,6 @@ fn exponent_of(x: f64) -> i32 {
     } else {
         biased - 1023
     }
-}
-
-/// `2^exponent`, for normal numbers.
-const fn power_of_two(exponent: i32) -> f64 {
-    let biased = exponent + 1023;
-    let biased = if biased < 1 {
-        1
-    } else if biased > 2046 {
-        2046
-    } else {
-        biased
-    };
-    f64::from_bits((biased as u64) << 52)
 }
 
 /// Roots in the order of their discovery, mapped to the interval.
@@ -529,37 +509,6 @@ impl List<'_> {
                 count: root.count,
             };
             self.len += 1;
-        }
-    }
-}
-
-impl List<'_> {
-    /// The direct path of degrees 1 to 5, for nonzero ends. `None` where it cannot decide; the list is then as before.
-    #[inline]
-    fn low_degree(&mut self, coefficients: &[f64], largest: f64, tolerance: f64) -> Option<()> {
-        if !(SAFE_LEAST..=SAFE_MOST).contains(&largest) {
-            return None;
-        }
-        match *coefficients {
-            [_] => {}
-            [a, b] => self.extend(&low_degree::linear([a, b])),
-            [a, b, c] => self.extend(&low_degree::quadratic([a, b, c], tolerance)?),
-            [a, b, c, d] => self.extend(&low_degree::roots(&[a, b, c, d], largest, tolerance)?),
-            [a, b, c, d, e] => {
-                self.extend(&low_degree::roots(&[a, b, c, d, e], largest, tolerance)?)
-            }
-            [a, b, c, d, e, f] => {
-                self.extend(&low_degree::roots(&[a, b, c, d, e, f], largest, tolerance)?)
-            }
-            _ => return None,
-        }
-        Some(())
-    }
-
-    #[inline]
-    fn extend<const N: usize>(&mut self, found: &low_degree::Enclosures<N>) {
-        for &(lo, hi) in &found.spans[..found.len] {
-            self.push(Root::exactly(lo, hi, 1));
         }
     }
 }

@@ -95,7 +95,10 @@ impl SturmChain {
     #[must_use]
     pub fn root_count(&self) -> usize {
         // A root of multiplicity m occurs on m levels.
-        let inner: usize = self.levels().map(|level| level.distinct_roots(0.0, 1.0)).sum();
+        let inner: usize = self
+            .levels()
+            .map(|level| level.distinct_roots(0.0, 1.0))
+            .sum();
         inner + (self.at_zero + self.at_one) as usize
     }
 
@@ -104,14 +107,21 @@ impl SturmChain {
     pub fn multiplicity(&self, lo: f64, hi: f64) -> u32 {
         let at_zero = if lo <= 0.0 { self.at_zero } else { 0 };
         let at_one = if hi >= 1.0 { self.at_one } else { 0 };
-        let inner = self.levels().take_while(|level| level.distinct_roots(lo, hi) > 0).count() as u32;
+        let inner = self
+            .levels()
+            .take_while(|level| level.distinct_roots(lo, hi) > 0)
+            .count() as u32;
         at_zero.max(at_one).max(inner)
     }
 
     /// The chains of `f`, of the greatest common divisor of `f` and `f'`, of that of the divisor and its derivative, and so on,
     /// without the roots at the ends: a root of multiplicity `m` occurs on `m` levels.
     fn levels(&self) -> impl Iterator<Item = Self> {
-        let inner = |chain: Vec<Vec<BigInt>>| Self { chain, at_zero: 0, at_one: 0 };
+        let inner = |chain: Vec<Vec<BigInt>>| Self {
+            chain,
+            at_zero: 0,
+            at_one: 0,
+        };
         std::iter::successors(Some(inner(self.chain.clone())), move |level| {
             let divisor = level.chain.last().filter(|divisor| divisor.len() > 1)?;
             Some(inner(chain(divisor.clone())))
