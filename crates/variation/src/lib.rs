@@ -1,4 +1,93 @@
-//! Certified real roots of Bernstein polynomials, refined variation-diminishing bounds, and curve intersections
+//! Certified real roots of polynomials in Bernstein form, bounds for their number without solving, and what follows for
+//! Bézier curves: hits with lines, rays, segments, planes, circles, implicit curves and other curves.
+//!
+//! ```text
+//!   p1 o                          A polynomial on an interval is drawn as the graph of its
+//!     / \          o p3           coefficients p0 .. pn. It cannot cross zero more often than this
+//!    /   \_q1   _-' \             polygon does. Cutting corners at a *pole* (here 1/2, points q)
+//!   / q0 x \_x-'_    \            gives the polygon p0 q0 .. q(n-1) pn: the polar derivative, and
+//! --/------\--_-x-----\------- 0  a bound that is never larger. Where bound and parity leave no
+//!  /        \o'  q2    \          choice the roots are counted without solving; elsewhere the
+//! o p0       p2         o p4      interval is halved, and every sign on the way is certain.
+//! ```
+//!
+//! ```
+//! // 12 t^3 - 18 t^2 + 7 t - 1/2, by its Bernstein coefficients on [0, 1]
+//! let roots = variation::roots(&[-0.5, 11.0 / 6.0, -11.0 / 6.0, 0.5])?;
+//! for root in &roots {
+//!     println!("a root in [{}, {}]", root.lo, root.hi);
+//!     assert!(root.width() <= 1e-12);
+//! }
+//! assert_eq!(roots.len(), 3);
+//! # Ok::<(), variation::Error>(())
+//! ```
+//!
+//! # What a root is here
+//!
+//! A [`Root`] is an enclosure `lo <= root <= hi` with a proven multiplicity. No root is missed and none invented: a sign
+//! counts only if it exceeds the bound of its rounding error. What `f64` cannot decide is repeated in 128-bit fixed point,
+//! and what that cannot decide (double roots above all) in integers, where a square-free decomposition gives the
+//! multiplicities. Without the feature `exact` the last step is missing and its cases are reported as
+//! [`Count::AtMost`]. Coefficients are taken as the exact numbers that they are: a double root of the polynomial that you
+//! meant is, once its coefficients are rounded, usually two close roots or none, and that is what is reported.
+//!
+//! # Where to look
+//!
+//! | you have | you ask | |
+//! |---|---|---|
+//! | Bernstein coefficients | roots on an interval | [`roots`], [`roots_on`], [`Solver`] (many, without allocation) |
+//! | | how many | [`Solver::count`], [`chain_bound`], [`pole_bound`], [`corollary_bound`] |
+//! | | blossom, polar derivative | [`blossom`], [`polar_derivative`], [`polar_derivatives`] |
+//! | power coefficients | roots on an interval | [`roots_of_power_form`] |
+//! | rational numbers | all of it, exactly | `ExactPolynomial`, `ExactCurve`, and the bounds over `BigRational` |
+//! | a plane curve ([`Curve`]) | hits with a [`Line`], ray, segment, circle, [`ImplicitCurve`] | [`Curve::meet_line`] and its neighbours, as [`Hit`]s |
+//! | | crossings with a curve, with itself | [`Curve::meet_curve`], [`Curve::self_meetings`], as [`Meeting`]s |
+//! | | extrema, inflections | [`Curve::extrema`], [`Curve::inflections`] |
+//! | a space curve | hits with a [`Plane`] | [`meet_plane`] |
+//! | a solver to test | reproducible hard polynomials, an exact judge | [`sets`], `SturmChain` |
+//!
+//! # What the refined bound is good for
+//!
+//! The refined bound is a corner cutting and costs O(n), but it is *not* a faster way to isolate all roots of a polynomial
+//! that has many: nodes that must be split really hold two roots or more. Measured in exact arithmetic on random
+//! coefficients, an early exit by poles saves a quarter of the subdivision work at degree 5 and 2 per cent at degree 40; on
+//! polynomials of known roots nothing. So [`roots`] does not use it. What pays there is the matching *lower* bound, values of
+//! alternating sign between the crossings of the polygon. The refined bound pays where the answer is a number: in
+//! [`Solver::count`], for lines that miss, and as evidence ([`ChainBound::polygon`]) in a proof or a figure. Zeros in a
+//! polygon must be counted ([`sign_changes`]); leaving them out is unsound for chains.
+//!
+//! Open in the chapter, and here: the concavity of the control polygon as a further bound, and the poles that make a chain
+//! best (a constrained minimum of the blossom); [`PoleStrategy`] offers three heuristics.
+//!
+//! # Errata of the chapter
+//!
+//! The printed inequality (4.2) is right with zeros counted as printed. The corollary is true, but not by applying (4.2)
+//! repeatedly at an end of the interval as the text says (each `p_0 = 0` would count again): drop the outer term instead. A
+//! chain of `n` poles costs O(n^2), like one subdivision. The statement on rational curves needs positive weights.
+//!
+//! # Conventions
+//!
+//! Coefficients are listed from the left end. Poles and arguments of blossoms are in the unit parameter
+//! ([`Interval::to_unit`]). Tolerances are relative to the interval; the default is [`DEFAULT_TOLERANCE`]. Degrees are
+//! unlimited for [`roots`] (above 64 only the exact path works), at most 120 for polynomials derived from curves.
+//!
+//! # Features
+//!
+//! - `exact` (default): integer arithmetic decides what `f64` and fixed point cannot; rational input; Sturm's theorem.
+//! - `serde`: all value types.
+//! - `rayon`: [`roots_of_all`] works on all cores.
+//!
+//! # References
+//!
+//! - R. Ait-Haddou, L. Biard, *Variation diminishing property of Bézier curves*, in: L. Biard, habilitation thesis, chapter 4.
+//! - E. Laguerre, *Oeuvres*, vol. 1, 1898, pp. 48-49 (polar derivative).
+//! - G. E. Collins, A. G. Akritas, *Polynomial real root isolation using Descartes' rule of signs*, SYMSAC 1976.
+//! - T. W. Sederberg, T. Nishita, *Curve intersection using Bézier clipping*, CAD 22, 1990.
+//! - T. W. Sederberg, R. J. Meyers, *Loop detection in surface patch intersections*, CAGD 5, 1988 (tangent cones).
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeDoctests;
 
 mod arithmetic;
 mod bound;
@@ -11,6 +100,7 @@ mod line;
 mod low_degree;
 mod meet;
 mod polar;
+mod power_form;
 #[cfg(feature = "exact")]
 mod rational;
 mod refine;
@@ -28,7 +118,7 @@ pub use bound::{
     ChainBound, PoleStrategy, SplitBound, UnitParameter, chain_bound, chain_bound_by,
     corollary_bound, pole_bound,
 };
-pub use curve::{Curve, Hit, meet_plane, roots_of_power_form};
+pub use curve::{Curve, Hit, meet_plane};
 pub use error::Error;
 pub use glam;
 pub use line::{ImplicitCurve, Line, Plane, Term};
@@ -38,6 +128,7 @@ pub use num_bigint::BigInt;
 #[cfg(feature = "exact")]
 pub use num_rational::BigRational;
 pub use polar::{Affine, blossom, polar_derivative, polar_derivatives};
+pub use power_form::roots_of_power_form;
 #[cfg(feature = "exact")]
 pub use rational::{ExactCurve, ExactPolynomial, ExactRoot, to_power_form};
 pub use root::{Count, Interval, Root, Roots};
@@ -45,6 +136,6 @@ pub use sign_changes::{
     Signed, descartes_changes, sign_changes, sign_changes_by_parity, sign_changes_left,
     sign_changes_right,
 };
-pub use solver::{DEFAULT_TOLERANCE, Solver, roots, roots_on};
+pub use solver::{DEFAULT_TOLERANCE, Solver, roots, roots_of_all, roots_on};
 #[cfg(feature = "exact")]
 pub use sturm::{SturmChain, Verdict};

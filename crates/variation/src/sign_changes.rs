@@ -66,12 +66,16 @@ pub fn sign_changes_right<T: Signed>(sequence: &[T]) -> usize {
 /// but not for the polygons of chains.
 #[must_use]
 pub fn descartes_changes<T: Signed>(sequence: &[T]) -> usize {
-    let signs: Vec<i8> = sequence
-        .iter()
-        .map(Signed::signum)
-        .filter(|s| *s != 0)
-        .collect();
-    signs.windows(2).filter(|s| s[0] != s[1]).count()
+    let mut signs = sequence.iter().map(Signed::signum).filter(|s| *s != 0);
+    let Some(mut last) = signs.next() else {
+        return 0;
+    };
+    let mut changes = 0;
+    for sign in signs {
+        changes += usize::from(sign != last);
+        last = sign;
+    }
+    changes
 }
 
 /// As [`sign_changes`], except that an inner run of `m` zeros counts the largest number up to `m` of the right parity: even

@@ -9,6 +9,7 @@ use crate::root::{Count, INLINE, Interval, Root, Roots};
 use crate::rounding::power_of_two;
 use crate::rounding::{BINOMIALS, Evaluator, MAX_FLOAT_DEGREE, SAFE_EXPONENT, U, evaluator_len};
 use crate::sharp::{Sharp, sharp_len};
+use crate::sign_changes::descartes_changes;
 use crate::subdivision::{self, Coefficient};
 
 /// The width, relative to the interval, to which roots are enclosed unless asked otherwise.
@@ -68,6 +69,29 @@ pub fn roots_on(coefficients: &[f64], interval: Interval) -> Result<Roots, Error
     Ok(Roots::from_slice(&roots[..len]))
 }
 
+/// The bound (4.2) with the pole 1/2 and the polygon of the polar derivative, for nonzero ends: zeros inside counted by the
+/// parity of their neighbours, the whole lowered to the parity of the ends. The sign of a sum of two `f64` is exact.
+fn pole_half_changes(p: &[f64]) -> usize {
+    let (mut changes, mut zeros) = (0_usize, 0_usize);
+    let mut negative = p[0] < 0.0;
+    let last = p.len() - 1;
+    let sums = p.windows(2).map(|p| p[0] + p[1]).chain([p[last]]);
+    for q in sums {
+        if q == 0.0 {
+            zeros += 1;
+            continue;
+        }
+        let odd = usize::from(negative != (q < 0.0));
+        changes += if zeros >= odd {
+            zeros - (zeros - odd) % 2
+        } else {
+            odd
+        };
+        (zeros, negative) = (0, q < 0.0);
+    }
+    changes
+}
+
 /// Simple roots, mapped to the interval.
 #[inline]
 fn roots_of_spans(
@@ -78,6 +102,37 @@ fn roots_of_spans(
         let (lo, hi) = interval.image(lo, hi);
         Root::exactly(lo, hi, 1)
     })
+}
+
+/// The roots of many polynomials, in their order; with the feature `rayon` on all cores.
+///
+/// # Examples
+/// ```
+/// let answers = variation::roots_of_all(&[vec![-1.0, 1.0], vec![1.0, -3.0, 1.0], vec![]]);
+/// assert_eq!(answers[1].as_ref().map(|roots| roots.len()), Ok(2));
+/// assert_eq!(answers[2], Err(variation::Error::NoCoefficients));
+/// ```
+#[must_use]
+pub fn roots_of_all(polynomials: &[Vec<f64>]) -> Vec<Result<Roots, Error>> {
+    let answer = |solver: &mut Solver, polynomial: &Vec<f64>| {
+        solver.roots(polynomial).map(Roots::from_slice)
+    };
+    #[cfg(feature = "rayon")]
+    {
+        use rayon::prelude::*;
+        polynomials
+            .par_iter()
+            .map_init(Solver::new, answer)
+            .collect()
+    }
+    #[cfg(not(feature = "rayon"))]
+    {
+        let mut solver = Solver::new();
+        polynomials
+            .iter()
+            .map(|polynomial| answer(&mut solver, polynomial))
+            .collect()
+    }
 }
 
 /// A polynomial as the algorithm sees it.
@@ -234,6 +289,57 @@ impl Solver {
             return Ok(&self.roots);
         }
         self.solve(&Input::exactly(coefficients), interval)
+    }
+
+    /// The number of roots in `[0, 1]` with multiplicity, without enclosing them.
+    ///
+    /// Two bounds of cost O(n) come first: Descartes' count, and the polygon of the polar derivative with the pole 1/2. A bound
+    /// of 0 or 1 with the parity of the end signs is the number itself.
+    ///
+    /// # Errors
+    /// As [`crate::roots`].
+    ///
+    /// # Examples
+    /// ```
+    /// // Three sign changes, one root.
+    /// let count = variation::Solver::new().count(&[-11.0, 7.0, -9.0, -5.0, -12.0, 12.0])?;
+    /// assert_eq!(count, variation::Count::Exactly(1));
+    /// # Ok::<(), variation::Error>(())
+    /// ```
+    pub fn count(&mut self, coefficients: &[f64]) -> Result<Count, Error> {
+        largest(coefficients)?;
+        let (at_zero, at_one) = Input::exactly(coefficients).zeros;
+        if at_zero == coefficients.len() {
+            return Err(Error::IdenticallyZero);
+        }
+        let inner = &coefficients[at_zero..coefficients.len() - at_one];
+        let whole = at_zero + at_one == 0;
+        // Without the zeros at the ends the signs of the coefficients stay, the sums of neighbours do not.
+        let least = descartes_changes(inner);
+        let least = if least > 1 && whole {
+            least.min(pole_half_changes(coefficients))
+        } else {
+            least
+        };
+        if least <= 1 {
+            return Ok(Count::Exactly((at_zero + least + at_one) as u32));
+        }
+        let tolerance = std::mem::replace(&mut self.options.tolerance, 1.0);
+        let found = self.roots(coefficients).map(|roots| {
+            roots
+                .iter()
+                .fold((0, true), |(sum, exactly), root| match root.count {
+                    Count::Exactly(multiplicity) => (sum + multiplicity, exactly),
+                    Count::AtMost(most) => (sum + most, false),
+                })
+        });
+        self.options.tolerance = tolerance;
+        let (sum, exactly) = found?;
+        Ok(if exactly {
+            Count::Exactly(sum)
+        } else {
+            Count::AtMost(sum)
+        })
     }
 
     pub(crate) fn solve(
