@@ -521,7 +521,7 @@ impl Homogeneous {
         let mut last_below = None;
         for turn in 1_u64.. {
             let (a, b) = (lo.to_f64(false), hi.to_f64(true));
-            if !(b - a > tolerance) || b <= a.next_up().next_up() {
+            if b - a <= tolerance || b <= a.next_up().next_up() {
                 break;
             }
             let ends_known = value_lo.mantissa != 0.0 && value_hi.mantissa != 0.0;

@@ -93,7 +93,7 @@ fn quadratic([a, b, c]: [f64; 3], tolerance: f64) -> Option<Enclosures> {
     if discriminant < -error {
         return Some(found);
     }
-    if !(discriminant > 4.0 * error) {
+    if discriminant <= 4.0 * error {
         return None;
     }
     // Half the relative error of the discriminant, then the root, the sum, the quotient, and t = r / (1 + r).
@@ -333,7 +333,7 @@ fn roots<const M: usize>(p: &[f64; M], tolerance: f64) -> Option<Enclosures> {
                 let (left, right) = piece.split(z);
                 let inner_certain =
                     certain_inside(&left.p, split_error) && certain_inside(&right.p, split_error);
-                if !inner_certain || !(right.p[0].abs() > split_error) {
+                if !inner_certain || right.p[0].abs() <= split_error {
                     return None;
                 }
                 waiting[len] = right;
@@ -371,7 +371,7 @@ fn crossing<const M: usize>(p: &[f64; M]) -> f64 {
 fn extremum<const M: usize>(p: &[f64; M]) -> f64 {
     let (a, b, c) = (p[1] - p[0], p[2] - p[1], p[3] - p[2]);
     let discriminant = b * b - a * c;
-    if !(discriminant > 0.0) {
+    if discriminant <= 0.0 {
         return 0.5;
     }
     // a s^2 + 2 b s t + c t^2 = 0; the sign of the root decides between minimum and maximum.
@@ -392,11 +392,11 @@ impl<const M: usize> Piece<M> {
     fn split(&self, z: f64) -> (Self, Self) {
         let mut row = self.p;
         let mut left = self.p;
-        for j in 1..M {
+        for (j, slot) in left.iter_mut().enumerate().skip(1) {
             for i in 0..M - j {
                 row[i] = (1.0 - z) * row[i] + z * row[i + 1];
             }
-            left[j] = row[0];
+            *slot = row[0];
         }
         let middle = self.lo + (self.hi - self.lo) * z;
         (

@@ -231,7 +231,7 @@ impl<'a> Evaluator<'a> {
         let degree = coefficients.len() - 1;
         let (mut even, mut odd, mut even_slope, mut odd_slope) = (0.0, 0.0, 0.0, 0.0);
         let (mut even_magnitude, mut odd_magnitude) = (0.0, 0.0);
-        let paired = if degree % 2 == 0 {
+        let paired = if degree.is_multiple_of(2) {
             even = coefficients[degree];
             even_magnitude = magnitudes[degree];
             degree
@@ -264,7 +264,7 @@ impl<'a> Evaluator<'a> {
 fn alternate(coefficients: &[f64], w: f64) -> (f64, f64) {
     let degree = coefficients.len() - 1;
     let (mut even, mut odd) = (0.0, 0.0);
-    let paired = if degree % 2 == 0 {
+    let paired = if degree.is_multiple_of(2) {
         even = coefficients[degree];
         degree
     } else {

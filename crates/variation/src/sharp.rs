@@ -215,7 +215,7 @@ impl<'a> Sharp<'a> {
     /// An enclosure between two certain and opposite signs, inside the bracket.
     fn enclose(&self, side: Side, u: f64, reach: f64, bracket: Bracket) -> Option<Refined> {
         let (near, far) = (u - reach, u + reach);
-        if !(near > 0.0) {
+        if near <= 0.0 {
             return None;
         }
         let (left, right) = if side.upper { (far, near) } else { (near, far) };

@@ -77,11 +77,11 @@ impl Coefficient for f64 {
     fn halve(row: &mut [Self], left: &mut [Self]) {
         let degree = row.len() - 1;
         left[0] = row[0];
-        for j in 1..=degree {
+        for (j, slot) in left.iter_mut().enumerate().skip(1) {
             for i in 0..=degree - j {
                 row[i] += row[i + 1];
             }
-            left[j] = row[0] * HALF_POWERS[j];
+            *slot = row[0] * HALF_POWERS[j];
         }
         for (value, power) in row.iter_mut().zip(HALF_POWERS[..=degree].iter().rev()) {
             *value *= power;
@@ -92,11 +92,11 @@ impl Coefficient for f64 {
         let degree = row.len() - 1;
         let z = f64::from(z) / 32.0;
         left[0] = row[0];
-        for j in 1..=degree {
+        for (j, slot) in left.iter_mut().enumerate().skip(1) {
             for i in 0..=degree - j {
                 row[i] = (1.0 - z) * row[i] + z * row[i + 1];
             }
-            left[j] = row[0];
+            *slot = row[0];
         }
     }
 
@@ -181,11 +181,11 @@ impl Coefficient for i128 {
     fn halve(row: &mut [Self], left: &mut [Self]) {
         let degree = row.len() - 1;
         left[0] = row[0];
-        for j in 1..=degree {
+        for (j, slot) in left.iter_mut().enumerate().skip(1) {
             for i in 0..=degree - j {
                 row[i] = (row[i] + row[i + 1]) >> 1;
             }
-            left[j] = row[0];
+            *slot = row[0];
         }
     }
 
@@ -193,11 +193,11 @@ impl Coefficient for i128 {
         let degree = row.len() - 1;
         let z = i128::from(z);
         left[0] = row[0];
-        for j in 1..=degree {
+        for (j, slot) in left.iter_mut().enumerate().skip(1) {
             for i in 0..=degree - j {
                 row[i] = (row[i] * (32 - z) + row[i + 1] * z) >> 5;
             }
-            left[j] = row[0];
+            *slot = row[0];
         }
     }
 

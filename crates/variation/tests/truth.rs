@@ -51,7 +51,11 @@ fn benchmark_sets() {
 fn high_degrees() {
     let mut solver = Solver::new();
     let mut check = |set: Set, degree: usize| {
-        judge(&mut solver, &set.polynomial(degree, 0), &format!("{set:?} {degree}"));
+        judge(
+            &mut solver,
+            &set.polynomial(degree, 0),
+            &format!("{set:?} {degree}"),
+        );
     };
     for set in Set::ALL {
         check(set, 30);
