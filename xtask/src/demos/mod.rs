@@ -91,7 +91,7 @@ mod seahorse;
 
 // mod straightest;
 
-// mod t_quartic;
+mod t_quartic;
 
 mod variation;
 
@@ -134,7 +134,7 @@ pub fn all() -> Vec<Entry> {
         entry::<seahorse::Seahorse>(),
         // entry::<straightest::Straightest>(),
 
-        // entry::<t_quartic::TQuartic>(),
+        entry::<t_quartic::TQuartic>(),
 
         entry::<variation::Variation>(),
 
