@@ -630,10 +630,16 @@ fn rational_vertex_polynomial(bend: &[f64], weight: &[f64], velocity: &[DVec2]) 
         .unwrap_or(1)
         .saturating_sub(1);
     let mut sum = vec![0.0; degree + 1];
+    let mut largest = 0.0_f64;
     for (factor, term) in terms {
         for (sum, c) in sum.iter_mut().zip(elevate_to(&term, degree)) {
             *sum += factor * c;
+            largest = largest.max((factor * c).abs());
         }
+    }
+    // On a circle the terms cancel and leave rounding, which has roots anywhere.
+    if sum.iter().all(|c| c.abs() <= STRAIGHT * largest) {
+        sum.fill(0.0);
     }
     sum
 }

@@ -45,7 +45,7 @@ mod geodesic;
 
 // mod lorentz;
 
-// mod ph_curves;
+mod ph_curves;
 
 // mod reconstruct;
 
@@ -64,7 +64,7 @@ pub fn all() -> Vec<Entry> {
         entry::<geodesic::Geodesic>(),
         // entry::<lorentz::Lorentz>(),
 
-        // entry::<ph_curves::PhCurves>(),
+        entry::<ph_curves::PhCurves>(),
 
         // entry::<reconstruct::Reconstruct>(),
         entry::<render::Render>(),

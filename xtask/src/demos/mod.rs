@@ -63,7 +63,7 @@ mod cyclide_to_cone;
 
 mod cyclide_zoo;
 
-// mod dual_control;
+mod dual_control;
 
 // mod geodesic;
 
@@ -112,7 +112,7 @@ pub fn all() -> Vec<Entry> {
         entry::<cone_blend::ConeBlend>(),
         entry::<cyclide_to_cone::CyclideToCone>(),
         entry::<cyclide_zoo::CyclideZoo>(),
-        // entry::<dual_control::DualControl>(),
+        entry::<dual_control::DualControl>(),
 
         // entry::<geodesic::Geodesic>(),
 
