@@ -27,6 +27,9 @@ const PEAK: f64 = 1.16;
 /// makes the factor cheap.
 const WIDE_PEAK: f64 = 2.0;
 
+/// A first derivative below this share of the second is the rounding of one that vanishes.
+const VANISHING: f64 = 1e-11;
+
 /// One end of an interval: the curve's point, right-hand unit normal and signed curvature there, 0 at inflections and
 /// infinite at cusps.
 #[derive(Clone, Copy, Debug)]
@@ -51,9 +54,13 @@ impl End {
                 what: "a point or derivative of the curve",
             });
         }
-        let direction = curve.direction(span, t, side);
+        let vanished = first.length_squared() <= VANISHING * VANISHING * second.length_squared();
+        let direction = if vanished {
+            curve.direction(span, t, side)
+        } else {
+            first
+        };
         let normal = -direction.normalize_or_zero().perp();
-        let vanished = direction != first;
         let curvature = if vanished {
             f64::INFINITY
         } else {

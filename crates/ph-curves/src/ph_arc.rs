@@ -463,13 +463,14 @@ impl<const N: usize> PhArc<N> {
 
     pub(crate) fn split_inside(&self, t: f64) -> (Self, Self) {
         let mut right = self.g;
-        let mut left = self.g;
-        for level in 1..N {
-            for k in 0..N - level {
-                right[k] += t * (right[k + 1] - right[k]);
+        let left = std::array::from_fn(|level| {
+            if level > 0 {
+                for k in 0..N - level {
+                    right[k] += t * (right[k + 1] - right[k]);
+                }
             }
-            left[level] = right[0];
-        }
+            right[0]
+        });
         let w = self.spinor(t);
         (
             Self {
@@ -497,7 +498,7 @@ impl<const N: usize> PhArc<N> {
                 end,
             });
         }
-        if !(end <= 1.0) {
+        if end > 1.0 || end.is_nan() {
             return Err(Error::OutsideDomain {
                 value: end,
                 start,

@@ -433,7 +433,7 @@ fn newton(first: &Stretch<'_>, second: &Stretch<'_>) -> Meeting {
             // The continuations of both stretches cross here and nowhere else near: outside means a miss.
             return if inside(t) && inside(s) {
                 Meeting::Cross(at(first, t.clamp(0.0, 1.0)), at(second, s.clamp(0.0, 1.0)))
-            } else if t > 1.01 || t < -0.01 || s > 1.01 || s < -0.01 {
+            } else if [t, s].iter().any(|x| !(-0.01..=1.01).contains(x)) {
                 Meeting::Unknown
             } else {
                 Meeting::Miss

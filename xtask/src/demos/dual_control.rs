@@ -112,7 +112,7 @@ fn drawn_line(vector: DVec3, near: DVec2, reach: f64) -> Result<[DVec2; 2]> {
 
 fn dual_plot(curve: &DualCurve) -> Result<Plot> {
     let mut plot = Plot::geometry("dual Bézier curve");
-    plot.view(dvec2(-0.9, -0.2), dvec2(1.9, 1.9));
+    plot.view(dvec2(-0.9, -0.9), dvec2(1.9, 1.7));
     let middle = curve.contact(0.5)?.point;
     for (k, vector) in curve.vectors().iter().enumerate() {
         let [a, b] = drawn_line(*vector, middle, 3.0)?;
@@ -156,10 +156,10 @@ fn triangle_plot() -> Result<Plot> {
 fn element_plot(pair: &G2Pair) -> Result<Plot> {
     let mut plot = Plot::geometry("elements, evolute, quartics");
     let [start, end] = elements()?;
-    for (element, name) in [(start, "P₀"), (end, "P₁")] {
+    for (element, name, side) in [(start, "P₀", Side::Right), (end, "P₁", Side::Above)] {
         plot.circle(element.centre(), element.radius(), GREY.line().width(1.0).dotted());
         plot.segment(element.centre(), element.point(), GREY.line());
-        plot.point(element.point(), name, Side::Above, INK.line());
+        plot.point(element.point(), name, side, INK.line());
     }
     for (arc, color) in pair.arcs.iter().zip([BLUE, VERMILION]) {
         plot.trace(|t| arc.point(t), 0.0, 1.0, color.line().width(2.4));

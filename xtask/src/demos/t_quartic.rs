@@ -30,7 +30,7 @@ pub(super) struct TQuartic {
     #[arg(long)]
     svg: Option<PathBuf>,
     /// Offset distance for --svg, to the right of travel if positive, in the units of the file
-    #[arg(long, default_value_t = 5.0)]
+    #[arg(long, default_value_t = 5.0, allow_negative_numbers = true)]
     distance: f64,
 }
 
@@ -185,7 +185,7 @@ fn order() -> Result<f64> {
 fn spiral_plot() -> Result<Plot> {
     let mut plot = Plot::geometry("log spiral, tension β");
     plot.trace(spiral, 0.0, ANGLE, GREY.line().width(4.0).label("spiral"));
-    for (beta, color) in [(0.2, VERMILION), (0.5, BLUE), (0.8, GREEN)] {
+    for (beta, color) in [(0.1, VERMILION), (0.5, BLUE), (0.9, GREEN)] {
         let pairs = spiral_pairs(ANGLE, 2, beta)?;
         let label = format!("β = {beta}");
         for (k, arc) in pairs.iter().flat_map(|pair| pair.arcs).enumerate() {
@@ -196,7 +196,7 @@ fn spiral_plot() -> Result<Plot> {
         let joints: Vec<DVec2> = pairs.iter().map(|pair| pair.joint.point()).collect();
         plot.points(&joints, Marker::Dot, color.line());
     }
-    plot.legend(Corner::TopRight);
+    plot.view(dvec2(-2.1, -2.9), dvec2(3.3, 1.7)).legend(Corner::TopRight);
     Ok(plot)
 }
 
