@@ -296,8 +296,10 @@ fn draw_patches(context: &mut Context) -> Result<()> {
         let [low, high] = shell.bounds().ok_or_else(|| anyhow!("an empty surface"))?;
         let scale = 1.0 / (high - low).max_element();
         let middle = 0.5 * (low + high);
-        let turn = DQuat::from_rotation_x(0.35);
-        let place = dvec3(1.12 * (index % 2) as f64, 0.0, -0.86 * (index / 2) as f64);
+        // The printed patch is on the far left of its torus.
+        let spin = if index == 0 { 0.3 * TAU } else { 0.0 };
+        let turn = DQuat::from_rotation_x(0.35) * DQuat::from_rotation_z(spin);
+        let place = dvec3(1.25 * (index % 2) as f64, 0.0, -1.02 * (index / 2) as f64);
         let map = DAffine3::from_scale_rotation_translation(
             DVec3::splat(scale),
             turn,

@@ -337,12 +337,35 @@ fn draw_villarceau(context: &mut Context) -> Result<()> {
             (point, ruling.normalize_or_zero(), ring.normal(theta, psi))
         })
         .collect();
+    // Where the circle's tangent is nearly asymptotic the ruling runs along the circle; the strip shows the longest part without.
+    let is_steep = |&(point, ruling, _): &(DVec3, DVec3, DVec3)| {
+        let tangent = through[0]
+            .axis()
+            .cross(point - through[0].centre())
+            .normalize_or_zero();
+        tangent.cross(ruling).length() > 0.55
+    };
+    let start = rulings
+        .iter()
+        .position(|ruling| !is_steep(ruling))
+        .unwrap_or(0);
+    let turned: Vec<_> = rulings
+        .iter()
+        .cycle()
+        .skip(start)
+        .take(rulings.len())
+        .copied()
+        .collect();
+    let longest = turned
+        .chunk_by(|one, other| is_steep(one) == is_steep(other))
+        .filter(|run| run.first().is_some_and(is_steep))
+        .max_by_key(|run| run.len())
+        .unwrap_or_default();
     let mut previous = DVec3::ZERO;
     let mut positions = Vec::new();
     let mut normals = Vec::new();
-    let cycle: Vec<_> = rulings.iter().chain(rulings.first()).collect();
     let width = 14;
-    for &&(point, ruling, normal) in &cycle {
+    for &(point, ruling, normal) in longest {
         let ruling = if ruling.dot(previous) < 0.0 {
             -ruling
         } else {

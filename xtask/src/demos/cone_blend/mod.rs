@@ -605,18 +605,22 @@ fn finite_span(span: [f64; 2]) -> [f64; 2] {
     span.map(|bound| bound.clamp(-1e6, 1e6))
 }
 
-/// The pair of the strip: its family passes through all five intervals.
+/// The pair of the strip: two nearly equal cones, for which all four ends of the types are near on the diagonal of contact circles on opposite sides.
 fn strip_pair() -> Result<([Cone; 2], Family)> {
-    let axis = dvec3(0.25_f64.cos(), 0.0, 0.25_f64.sin());
+    let around = |axis: DVec3, half_angle: f64| {
+        Cone::new(-axis * (0.8 / half_angle.sin()), axis, half_angle)
+    };
     let cones = [
-        Cone::cylinder(DVec3::ZERO, DVec3::Z, 0.8)?,
-        Cone::new(-axis * (0.8 / 0.3_f64.sin()), axis, 0.3)?,
+        around(DVec3::Z, 0.33)?,
+        around(dvec3(0.3_f64.cos(), 0.0, 0.3_f64.sin()), 0.3)?,
     ];
-    let family = *classify(&cones[0], &cones[1])
+    let found = classify(&cones[0], &cones[1]);
+    let family = found
         .families()
-        .first()
+        .iter()
+        .find(|family| family.pairing() < 0)
         .ok_or_else(|| anyhow!("no family"))?;
-    Ok((cones, family))
+    Ok((cones, *family))
 }
 
 /// The diagonal of the strip's pair with its intervals, in the axial plane (Fig. 13).
@@ -695,56 +699,47 @@ fn draw_diagonal(context: &mut Context) -> Result<()> {
     context.figure(
         "figure",
         &Figure::new(plot),
-        "The diagonal of a cylinder and a cone: each point gives a blend, and its type changes at four points only.",
-        "Skeletal lines of a cylinder and a cone, their common sphere dashed, and a diagonal coloured by the type of cyclide, with the points R, S, phi 1 and phi 2.",
+        "A diagonal of two cones: each point gives a blend, and its type changes at four points only.",
+        "Skeletal lines of two cones, their common sphere dashed, and a diagonal coloured by the type of cyclide, with the points R, S, phi 1 and phi 2.",
     )
 }
 
 /// The blend while X walks along the diagonal, through infinity and back.
 fn draw_strip(context: &mut Context) -> Result<()> {
     let (cones, family) = strip_pair()?;
-    let frames = context.pick(24_u32, 4);
-    let intervals = family.intervals();
-    let ends: Vec<f64> = intervals
-        .iter()
-        .flat_map(|interval| [interval.from, interval.to])
-        .filter(|end| end.is_finite())
-        .collect();
-    let (low, high) = ends
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &end| {
-            (low.min(end), high.max(end))
-        });
-    // From the first spindles to the last ones, by 1/t, which passes infinity on the diagonal evenly.
-    let margin = 0.25 * (high - low);
-    let coordinate = |frame: u32| {
-        low - margin + (high - low + 2.0 * margin) * (f64::from(frame) + 0.5) / f64::from(frames)
-    };
+    let frames = context.pick(24_u32, 6);
+    // From one side of the common sphere to the other, a third beyond the last end of a type; no frame is at the sphere itself.
+    let reach = 1.35
+        * family
+            .boundaries()
+            .into_iter()
+            .flatten()
+            .fold(0.0_f64, |reach, t| reach.max(t.abs()));
+    let parameter = |frame: u32| reach * (2.0 * (f64::from(frame) + 0.5) / f64::from(frames) - 1.0);
     let materials = [
         Material::glossy(CONE),
         Material::glossy(OTHER),
         Material::glossy(TUBE),
     ];
-    let camera = Camera::look_at(dvec3(-5.0, -17.0, 7.0), DVec3::ZERO);
+    let camera = Camera::look_at(dvec3(-5.0, -17.0, 7.0), dvec3(0.4, 0.0, 0.4));
     let mut images = Vec::new();
     let mut kinds = BTreeSet::new();
     let bar = context.progress("strip", u64::from(frames));
     for frame in 0..frames {
-        let t = 1.0 / coordinate(frame);
-        let blend = family.blend(t)?;
+        let blend = family.blend(parameter(frame))?;
         kinds.insert(blend.kind());
         let scene = strip_scene(&cones, &blend, materials)?;
         images.push(context.picture_of("strip", &scene, &camera).image());
         bar.inc(1);
     }
     bar.finish_and_clear();
-    context.number("strip_kinds", kinds.len(), Target::AtLeast(2.0));
+    context.number("strip_kinds", kinds.len(), Target::AtLeast(3.0));
     context.animation(
         "figure-strip",
         &images,
         6,
-        "X walks along one diagonal, through infinity: spindle, ring, doubly horned, ring, spindle.",
-        "A blue cylinder and an orange cone stand still while the white cyclide between them changes its shape.",
+        "X walks along one diagonal: doubly horned, ring, spindle, past the common sphere, spindle, ring, doubly horned.",
+        "A blue and an orange cone stand still while the white cyclide between them changes its shape.",
     )
 }
 
@@ -755,7 +750,8 @@ fn strip_scene(
     [first, second, surface_material]: [Material; 3],
 ) -> Result<Scene> {
     let mut scene = Scene::new();
-    let tolerance = |_: DVec3| 0.02;
+    // Fine enough that the surfaces part cleanly where they touch.
+    let tolerance = |_: DVec3| 0.001;
     for (cone, material) in cones.iter().zip([first, second]) {
         let across = cone.axis().any_orthonormal_vector();
         let other = cone.axis().cross(across);
@@ -783,7 +779,7 @@ fn strip_scene(
     }
     let surface = *blend.surface();
     let turn = std::f64::consts::TAU;
-    let mut mesh = Mesh::grid(220, 220, |u, v| {
+    let mut mesh = Mesh::grid(420, 420, |u, v| {
         (
             surface.point(turn * u, turn * v),
             surface.normal(turn * u, turn * v),
