@@ -386,7 +386,7 @@ impl Quartic {
     }
 
     /// The parameters `[theta, psi]`, each in `(-pi, pi]`, of a point of the surface. For a point beside the surface the
-    /// result belongs to some point near it; project with [`Quartic::closest`] first where that matters.
+    /// result belongs to some point near it; project with [`crate::Dupin::closest`] first where that matters.
     ///
     /// Closed form from `S = 2 b² (a - mu cos psi) / D` and `T = 2 b² cos psi (c cos theta - mu) / D`, the two squares
     /// inside the printed equations; nothing is iterated.

@@ -214,7 +214,7 @@ fn corners_with_a_frame_make_a_patch_that_converts() {
             axis.any_orthonormal_vector(),
             axis.cross(axis.any_orthonormal_vector()),
         );
-        let mut angles = [0; 4].map(|_| random.between(0.0, 6.28));
+        let mut angles = [0; 4].map(|_| random.between(0.0, std::f64::consts::TAU));
         angles.sort_by(f64::total_cmp);
         if (1..4).any(|i| angles[i] - angles[i - 1] < 0.4) || angles[3] - angles[0] > 5.8 {
             continue;

@@ -146,8 +146,8 @@ fn the_closest_point_is_closer_than_samples_and_the_offset_passes_through_the_qu
         let samples: Vec<DVec3> = (0..40_000)
             .map(|i| {
                 surface.point(
-                    at(TAU * f64::from(i % 200) / 200.0 - 3.14),
-                    at(TAU * f64::from(i / 200) / 200.0 - 3.14),
+                    at(TAU * f64::from(i % 200) / 200.0 - 3.0),
+                    at(TAU * f64::from(i / 200) / 200.0 - 3.0),
                 )
             })
             .collect();

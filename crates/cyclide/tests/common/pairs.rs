@@ -180,8 +180,7 @@ fn canonical(construction: &str, random: &mut Random) -> [RawCone; 2] {
             };
             let other = if inside { 1 } else { 0 };
             let axes = axes(angle);
-            if angle < 0.15
-                || angle > PI - 0.15
+            if !(0.15..=PI - 0.15).contains(&angle)
                 || (products(axes, angles)[other].abs() - 1.0).abs() < 0.02
             {
                 continue;
