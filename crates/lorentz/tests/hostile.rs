@@ -66,7 +66,7 @@ impl Source {
     }
 
     fn point(&mut self) -> Result<Point, Error> {
-        if self.next() % 5 == 0 {
+        if self.next().is_multiple_of(5) {
             Ok(Point::INFINITY)
         } else {
             Point::new(self.vector())

@@ -43,7 +43,7 @@ mod cyclide;
 
 mod geodesic;
 
-// mod lorentz;
+mod lorentz;
 
 mod ph_curves;
 
@@ -62,10 +62,8 @@ pub fn all() -> Vec<Entry> {
         entry::<bezier_mass::BezierMass>(),
         entry::<cyclide::Cyclide>(),
         entry::<geodesic::Geodesic>(),
-        // entry::<lorentz::Lorentz>(),
-
+        entry::<lorentz::Lorentz>(),
         entry::<ph_curves::PhCurves>(),
-
         // entry::<reconstruct::Reconstruct>(),
         entry::<render::Render>(),
         entry::<variation::Variation>(),
