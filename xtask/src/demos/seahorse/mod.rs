@@ -21,14 +21,16 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use anyhow::Result;
+use bezier_mass::BezierPatch;
 use glam::{DVec2, DVec3, dvec3};
-use lorentz::{CanalCurve, Plane};
+use lorentz::{CanalCurve, ContactPatch, Plane};
 
 use crate::color::{BLUE, Color, GREY, INK, VERMILION};
 use crate::demo::{Context, Demo, OrBadInput as _};
+use crate::export::{Part, Step};
 use crate::figure::{Figure, Marker, Plot, Side};
 use crate::mesh::Mesh;
-use crate::render::{Camera, Material, Scene};
+use crate::render::{Camera, Material, Paint, Scene};
 use crate::report::Target;
 use model::{Design, Seahorse as Model};
 
@@ -91,7 +93,8 @@ impl Demo for Seahorse {
         draw_design(context, &model)?;
         let partner = model.mirrored(mirror(&model)?)?;
         draw_pair(context, &model, &partner)?;
-        draw_joints(context, &model)
+        draw_joints(context, &model)?;
+        export(context, &model)
     }
 }
 
@@ -187,6 +190,57 @@ fn add(scene: &mut Scene, model: &Model, tolerance: f64, look: Look) -> Result<(
         )?;
     }
     Ok(())
+}
+
+/// The surfaces for other programs: meshes, and the exact rational biquadratic patches of the ten canal surfaces.
+fn export(context: &mut Context, model: &Model) -> Result<()> {
+    let tolerance = context.pick(2e-3, 2e-2);
+    let (body, fin) = (model.body_mesh(tolerance)?, model.fin_mesh(tolerance)?);
+    let coronet = model.coronet_mesh(tolerance);
+    let eyes = Mesh::merged(
+        model
+            .eyes
+            .iter()
+            .map(|eye| Mesh::sphere(eye.centre(), eye.radius(), tolerance)),
+    );
+    let color = |material: Material| match material.paint {
+        Paint::Plain(color) => color,
+        _ => GREY,
+    };
+    context.meshes(
+        "seahorse",
+        &[
+            Part::new("body", &body, color(CORAL.skin)),
+            Part::new("dorsal fin", &fin, color(CORAL.fin)),
+            Part::new("coronet", &coronet, color(CORAL.coronet)),
+            Part::new("eyes", &eyes, color(EYE)),
+        ],
+    )?;
+    let mut step = Step::new("seahorse");
+    for arc in model.body.arcs().iter().chain([&model.fin]) {
+        let arc = without_tip(arc)?;
+        let half = arc.second_family().conic()?;
+        for half in [half, half.complement()?] {
+            let patch = ContactPatch::new(arc.curve(), half.curve())?.surface()?;
+            step.patch(&BezierPatch::from(patch))?;
+        }
+    }
+    context.step("seahorse", &step)
+}
+
+/// The surface from a small sphere on, if it starts in a point: there the weights of its patch vanish, which STEP does
+/// not know.
+fn without_tip(arc: &CanalCurve) -> Result<CanalCurve> {
+    const SMALL_RADIUS: f64 = 0.02;
+    if arc.at(0.0).vertex().is_none() {
+        return Ok(*arc);
+    }
+    let small = arc.curve().parameters_of_radius(SMALL_RADIUS);
+    let start = small
+        .iter()
+        .filter_map(|t| t.value())
+        .find(|t| (0.0..1.0).contains(t));
+    Ok(arc.sub_arc(start.unwrap_or(0.0), 1.0)?)
 }
 
 /// The constraints and the skeleton in the plane of symmetry.
