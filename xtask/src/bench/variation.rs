@@ -59,9 +59,13 @@ impl Bench for Variation {
         }
         let mut rows = Vec::new();
         for letter in self.sets.chars() {
-            let set = Set::from_letter(letter).with_context(|| format!("there is no set {letter}"))?;
+            let set =
+                Set::from_letter(letter).with_context(|| format!("there is no set {letter}"))?;
             for &degree in &self.degrees {
-                ensure!((2..=60).contains(&degree), "the sets are defined for degrees 2 to 60");
+                ensure!(
+                    (2..=60).contains(&degree),
+                    "the sets are defined for degrees 2 to 60"
+                );
                 rows.push(self.row(set, degree, timer)?);
             }
         }
@@ -78,16 +82,24 @@ struct Score {
 
 impl Variation {
     fn row(&self, set: Set, degree: usize, timer: &Timer) -> Result<Value> {
-        let items: Vec<Vec<f64>> = (0..set.items()).map(|index| set.polynomial(degree, index)).collect();
+        let items: Vec<Vec<f64>> = (0..set.items())
+            .map(|index| set.polynomial(degree, index))
+            .collect();
         let mut solver = Solver::new();
         let ns = timer.nanoseconds(|| {
             for item in &items {
                 let _ = black_box(solver.roots(black_box(item)));
             }
         }) / items.len() as f64;
-        let judged = if degree > PEER_DEGREE { HIGH_DEGREE_ITEMS } else { items.len() };
+        let judged = if degree > PEER_DEGREE {
+            HIGH_DEGREE_ITEMS
+        } else {
+            items.len()
+        };
         let truth = truth(&items[..judged.min(items.len())])?;
-        let score = truth.iter().fold(Score::default(), |sum, (_, own)| sum.plus(*own));
+        let score = truth
+            .iter()
+            .fold(Score::default(), |sum, (_, own)| sum.plus(*own));
         let mut row = json!({
             "set": set.letter().to_string(),
             "degree": degree,
@@ -105,7 +117,10 @@ impl Variation {
 
 impl Score {
     fn plus(self, other: Self) -> Self {
-        Self { missed: self.missed + other.missed, false_roots: self.false_roots + other.false_roots }
+        Self {
+            missed: self.missed + other.missed,
+            false_roots: self.false_roots + other.false_roots,
+        }
     }
 }
 
@@ -118,8 +133,10 @@ fn truth(items: &[Vec<f64>]) -> Result<Vec<(Vec<f64>, Score)>> {
         .map_init(Solver::new, |solver, item| {
             let roots: Vec<Root> = solver.roots(item)?.to_vec();
             let verdict = SturmChain::try_new(item)?.judge(&roots);
-            let score =
-                Score { missed: verdict.missed, false_roots: verdict.false_roots + verdict.wrong_multiplicities };
+            let score = Score {
+                missed: verdict.missed,
+                false_roots: verdict.false_roots + verdict.wrong_multiplicities,
+            };
             Ok((roots.iter().map(Root::value).collect(), score))
         })
         .collect()
@@ -128,8 +145,16 @@ fn truth(items: &[Vec<f64>]) -> Result<Vec<(Vec<f64>, Score)>> {
 /// A solver of power coefficients, constant first; roots in `[0, 1]` in any order.
 type Peer<'a> = Box<dyn FnMut(&[f64]) -> Vec<f64> + 'a>;
 
-fn peers(items: &[Vec<f64>], degree: usize, truth: &[(Vec<f64>, Score)], timer: &Timer) -> Result<Map<String, Value>> {
-    let powers: Vec<Vec<f64>> = items.iter().map(|item| to_power_form(item)).collect::<Result<_, _>>()?;
+fn peers(
+    items: &[Vec<f64>],
+    degree: usize,
+    truth: &[(Vec<f64>, Score)],
+    timer: &Timer,
+) -> Result<Map<String, Value>> {
+    let powers: Vec<Vec<f64>> = items
+        .iter()
+        .map(|item| to_power_form(item))
+        .collect::<Result<_, _>>()?;
     let mut peers: Vec<(&str, Peer<'_>)> = Vec::new();
     peers.push(("polycool", polycool(degree)));
     if degree == 3 {
@@ -140,7 +165,13 @@ fn peers(items: &[Vec<f64>], degree: usize, truth: &[(Vec<f64>, Score)], timer: 
     peers.push((
         "aberth",
         Box::new(move |a| {
-            aberth.find_roots(a).iter().filter(|z| is_real(z.re, z.im)).map(|z| z.re).filter(in_unit).collect()
+            aberth
+                .find_roots(a)
+                .iter()
+                .filter(|z| is_real(z.re, z.im))
+                .map(|z| z.re)
+                .filter(in_unit)
+                .collect()
         }),
     ));
     if let Some(rpoly) = rpoly(degree) {
@@ -189,7 +220,10 @@ fn compare(truth: &[f64], mut found: Vec<f64>) -> Score {
     }
     // A root just outside the interval is no false one: it may belong to an end.
     let inside = found.iter().filter(|t| (0.0..=1.0).contains(*t)).count();
-    Score { missed: truth.len() - matched, false_roots: inside.saturating_sub(matched) }
+    Score {
+        missed: truth.len() - matched,
+        false_roots: inside.saturating_sub(matched),
+    }
 }
 
 /// The fastest form that the crate has for this degree.
@@ -209,7 +243,13 @@ fn polycool<'a>(degree: usize) -> Peer<'a> {
         _ => {
             let (mut out, mut scratch) = (Vec::new(), Vec::new());
             Box::new(move |a| {
-                PolyDyn::new(a.iter().copied()).roots_between_with_buffer(0.0, 1.0, ACCURACY, &mut out, &mut scratch);
+                PolyDyn::new(a.iter().copied()).roots_between_with_buffer(
+                    0.0,
+                    1.0,
+                    ACCURACY,
+                    &mut out,
+                    &mut scratch,
+                );
                 out.clone()
             })
         }
@@ -217,8 +257,13 @@ fn polycool<'a>(degree: usize) -> Peer<'a> {
 }
 
 fn kurbo(a: &[f64]) -> Vec<f64> {
-    let &[c0, c1, c2, c3] = a else { return Vec::new() };
-    ::kurbo::common::solve_cubic(c0, c1, c2, c3).into_iter().filter(in_unit).collect()
+    let &[c0, c1, c2, c3] = a else {
+        return Vec::new();
+    };
+    ::kurbo::common::solve_cubic(c0, c1, c2, c3)
+        .into_iter()
+        .filter(in_unit)
+        .collect()
 }
 
 fn rpoly<'a>(degree: usize) -> Option<Peer<'a>> {
@@ -229,7 +274,14 @@ fn rpoly<'a>(degree: usize) -> Option<Peer<'a>> {
         }
         ::rpoly::rpoly(&coefficients).map_or_else(
             |_| Vec::new(),
-            |roots| roots.into_iter().filter(|z| is_real(z.re, z.im)).map(|z| z.re).filter(in_unit).collect(),
+            |roots| {
+                roots
+                    .into_iter()
+                    .filter(|z| is_real(z.re, z.im))
+                    .map(|z| z.re)
+                    .filter(in_unit)
+                    .collect()
+            },
         )
     }
     Some(match degree {
@@ -263,7 +315,10 @@ fn soak(start: u64, count: u64) -> Value {
                         chain.judge(roots)
                     }
                     // Every planted polynomial is finite and not zero, so this is a wrong answer.
-                    _ => ::variation::Verdict { missed: 1, ..Default::default() },
+                    _ => ::variation::Verdict {
+                        missed: 1,
+                        ..Default::default()
+                    },
                 };
                 sums[1] += verdict.missed;
                 sums[2] += verdict.false_roots;

@@ -26,7 +26,11 @@ pub(super) fn record(context: &mut Context) -> Result<()> {
         })
         .try_reduce(Bounds::default, |a, b| Ok(a.plus(b)))?;
     bar.finish_and_clear();
-    context.number("bound_polynomials", bounds.polynomials, Target::exactly(polynomials));
+    context.number(
+        "bound_polynomials",
+        bounds.polynomials,
+        Target::exactly(polynomials),
+    );
     context.number("bound_violations", bounds.violations, Target::exactly(0));
     let tighter = bounds.tighter as f64 / bounds.polynomials as f64;
     context.number("refined_tighter_share", tighter, Target::AtLeast(0.05));
@@ -78,7 +82,9 @@ fn below(n: u64, random: &mut SplitMix64) -> u64 {
 fn integer_polynomial(random: &mut SplitMix64) -> Vec<f64> {
     let degree = 1 + below(7, random) as usize;
     if below(2, random) == 0 {
-        return (0..=degree).map(|_| below(9, random) as f64 - 4.0).collect();
+        return (0..=degree)
+            .map(|_| below(9, random) as f64 - 4.0)
+            .collect();
     }
     // Scaled coefficients c_i = C(n,i) p_i multiply like powers; 4 t - k is (4 - k) t - k (1 - t).
     let mut scaled = vec![1.0];
@@ -96,13 +102,25 @@ fn integer_polynomial(random: &mut SplitMix64) -> Vec<f64> {
         scaled = next;
     }
     // A common multiple of C(n, 0..=n) keeps the coefficients integers.
-    let binomials: Vec<u64> = (0..=degree as u64).map(|i| (0..i).fold(1, |c, k| c * (degree as u64 - k) / (k + 1))).collect();
-    let multiple = binomials.iter().fold(1_u64, |m, b| m / greatest_common_divisor(m, *b) * b);
-    scaled.iter().zip(binomials).map(|(c, b)| c * (multiple / b) as f64).collect()
+    let binomials: Vec<u64> = (0..=degree as u64)
+        .map(|i| (0..i).fold(1, |c, k| c * (degree as u64 - k) / (k + 1)))
+        .collect();
+    let multiple = binomials
+        .iter()
+        .fold(1_u64, |m, b| m / greatest_common_divisor(m, *b) * b);
+    scaled
+        .iter()
+        .zip(binomials)
+        .map(|(c, b)| c * (multiple / b) as f64)
+        .collect()
 }
 
 fn greatest_common_divisor(a: u64, b: u64) -> u64 {
-    if b == 0 { a } else { greatest_common_divisor(b, a % b) }
+    if b == 0 {
+        a
+    } else {
+        greatest_common_divisor(b, a % b)
+    }
 }
 
 /// `Z`, exactly, by Sturm's theorem; the degree plus one for the zero polynomial.
@@ -116,9 +134,14 @@ fn check(p: &[f64], random: &mut SplitMix64) -> Result<(bool, bool)> {
     let eighth = |random: &mut SplitMix64| below(9, random) as f64 / 8.0;
     let count = exact_count(p);
     let single = pole_bound(p, &eighth(random))?;
-    let (k, l) = (below(degree as u64 + 1, random) as usize, below(degree as u64 + 1, random) as usize);
+    let (k, l) = (
+        below(degree as u64 + 1, random) as usize,
+        below(degree as u64 + 1, random) as usize,
+    );
     let part = corollary_bound(p, k.min(l), k.max(l))?;
-    let poles: Vec<f64> = (0..=below(degree as u64, random)).map(|_| eighth(random)).collect();
+    let poles: Vec<f64> = (0..=below(degree as u64, random))
+        .map(|_| eighth(random))
+        .collect();
     let chain = chain_bound(p, &poles)?;
     let greedy = chain_bound_by(p, degree.min(3), PoleStrategy::Halving)?;
     let plain = chain_bound(p, &[])?;
@@ -127,7 +150,11 @@ fn check(p: &[f64], random: &mut SplitMix64) -> Result<(bool, bool)> {
         part.total(exact_count(&part.middle)),
         chain.printed,
         // For the zero polynomial Z exceeds the degree; parity and sharpening are for the others.
-        if count > degree { count } else { chain.best.min(greedy.best).min(plain.best) },
+        if count > degree {
+            count
+        } else {
+            chain.best.min(greedy.best).min(plain.best)
+        },
     ]
     .into_iter()
     .min()
@@ -137,11 +164,19 @@ fn check(p: &[f64], random: &mut SplitMix64) -> Result<(bool, bool)> {
 
 /// Missed roots, and false ones or ones of the wrong multiplicity, over the sets U, K, A, C, M and L.
 fn roots_against_sturm(degrees: &[usize], items: u64) -> Result<(usize, usize)> {
-    let sets = [Set::Uniform, Set::Known, Set::AllReal, Set::Chebyshev, Set::Mignotte, Set::ClosePairs];
+    let sets = [
+        Set::Uniform,
+        Set::Known,
+        Set::AllReal,
+        Set::Chebyshev,
+        Set::Mignotte,
+        Set::ClosePairs,
+    ];
     let mut polynomials = Vec::new();
     for set in sets {
         for &degree in degrees {
-            polynomials.extend((0..set.items().min(items)).map(|index| set.polynomial(degree, index)));
+            polynomials
+                .extend((0..set.items().min(items)).map(|index| set.polynomial(degree, index)));
         }
     }
     polynomials
@@ -149,7 +184,10 @@ fn roots_against_sturm(degrees: &[usize], items: u64) -> Result<(usize, usize)> 
         .map_init(Solver::new, |solver, p| {
             let roots = solver.roots(p)?;
             let verdict = SturmChain::try_new(p)?.judge(roots);
-            Ok((verdict.missed, verdict.false_roots + verdict.wrong_multiplicities))
+            Ok((
+                verdict.missed,
+                verdict.false_roots + verdict.wrong_multiplicities,
+            ))
         })
         .try_reduce(|| (0, 0), |a, b| Ok((a.0 + b.0, a.1 + b.1)))
 }

@@ -9,8 +9,8 @@ mod measure;
 use anyhow::{Context as _, Result};
 use glam::{DVec2, dvec2};
 use variation::{
-    ChainBound, Curve, Line, PoleStrategy, chain_bound, chain_bound_by, corollary_bound, polar_derivative, roots,
-    sign_changes,
+    ChainBound, Curve, Line, PoleStrategy, chain_bound, chain_bound_by, corollary_bound,
+    polar_derivative, roots, sign_changes,
 };
 
 use crate::color::{BLUE, GREEN, GREY, INK, MIST, ORANGE, VERMILION};
@@ -68,9 +68,9 @@ impl Demo for Variation {
         )?;
         context.figure(
             "figure3",
-            &Figure::grid(2, vec![inner_curve()?, pole_third()?]).aspect(1.15),
-            "Left (Fig. 4.3): no line meets the curve more often than the bold line of polygon, inner curve P₁..P₄ and polygon. \
-             Right (Fig. 4.4): the same with the polygon of the polar derivative at ζ = 1/3.",
+            &Figure::grid(1, vec![inner_curve()?, pole_third()?]).aspect(2.0),
+            "Above (Fig. 4.3): no line meets the curve more often than the bold line of polygon, inner curve P₁..P₄ and polygon. \
+             Below (Fig. 4.4): the same with the polygon of the polar derivative at ζ = 1/3.",
             "Two plots of a Bézier curve with its control polygon, a bold refinement, and lines labelled by their bounds and hits.",
         )?;
         context.figure(
@@ -88,14 +88,21 @@ impl Demo for Variation {
 /// The points of a polynomial's control polygon over [0, 1].
 fn control_polygon(coefficients: &[f64]) -> Vec<DVec2> {
     let degree = (coefficients.len() - 1).max(1) as f64;
-    coefficients.iter().enumerate().map(|(i, p)| dvec2(i as f64 / degree, *p)).collect()
+    coefficients
+        .iter()
+        .enumerate()
+        .map(|(i, p)| dvec2(i as f64 / degree, *p))
+        .collect()
 }
 
 /// The polygon of a chain: the abscissae are the same chain of `i / n`.
 fn chain_polygon(bound: &ChainBound<f64>, degree: usize, poles: &[f64]) -> Result<Vec<DVec2>> {
     let abscissae: Vec<f64> = (0..=degree).map(|i| i as f64 / degree as f64).collect();
     let x = chain_bound(&abscissae, poles)?.polygon;
-    Ok(x.into_iter().zip(&bound.polygon).map(|(x, y)| dvec2(x, *y)).collect())
+    Ok(x.into_iter()
+        .zip(&bound.polygon)
+        .map(|(x, y)| dvec2(x, *y))
+        .collect())
 }
 
 fn graph(coefficients: &[f64], t: f64) -> f64 {
@@ -109,25 +116,46 @@ fn polar_cubic(pole: f64) -> Result<Plot> {
     let mut plot = Plot::geometry(&format!("a cubic and its polar derivative, pole {pole}"));
     plot.polyline(&p, GREY.line().dashed());
     plot.polyline(&q, VERMILION.line().dashed());
-    plot.trace(|t| curve.point(t), 0.0, 1.0, BLUE.line().width(2.4).label("F"));
-    plot.trace(|t| polar.point(t), 0.0, 1.0, VERMILION.line().width(2.4).label("F_ζ"));
-    let names = ["p₀ = f(a,a,a)", "p₁ = f(a,a,b)", "p₂ = f(a,b,b)", "p₃ = f(b,b,b)"];
+    plot.trace(
+        |t| curve.point(t),
+        0.0,
+        1.0,
+        BLUE.line().width(2.4).label("F"),
+    );
+    plot.trace(
+        |t| polar.point(t),
+        0.0,
+        1.0,
+        VERMILION.line().width(2.4).label("F_ζ"),
+    );
+    let names = [
+        "p₀ = f(a,a,a)",
+        "p₁ = f(a,a,b)",
+        "p₂ = f(a,b,b)",
+        "p₃ = f(b,b,b)",
+    ];
     let sides = [Side::BelowRight, Side::Above, Side::Above, Side::BelowLeft];
     for ((at, name), side) in p.into_iter().zip(names).zip(sides) {
         plot.point(at, name, side, INK.fill());
     }
     let names = ["q₀ = f(a,a,ζ)", "q₁ = f(a,b,ζ)", "q₂ = f(b,b,ζ)"];
-    let sides = [Side::Left, Side::Above, Side::Right];
+    let sides = [Side::BelowRight, Side::Above, Side::Right];
     for ((at, name), side) in q.iter().zip(names).zip(sides) {
         plot.point(*at, name, side, VERMILION.fill());
     }
-    plot.point(curve.point(pole), "F(ζ) = F_ζ(ζ)", Side::Below, GREEN.fill());
+    plot.point(
+        curve.point(pole),
+        "F(ζ) = F_ζ(ζ)",
+        Side::BelowRight,
+        GREEN.fill(),
+    );
     plot.legend(Corner::BottomRight);
     Ok(plot)
 }
 
 fn subpolynomials() -> Result<Plot> {
     let mut plot = Plot::chart("two roots, but none in either part", "t", "");
+    plot.view(dvec2(-0.04, -11.0), dvec2(1.04, 20.0));
     let polygon = control_polygon(&SUBPOLYNOMIALS);
     plot.segment(dvec2(0.0, 0.0), dvec2(1.0, 0.0), INK.line().width(0.8));
     plot.polyline(&polygon, GREY.line().dashed());
@@ -137,10 +165,18 @@ fn subpolynomials() -> Result<Plot> {
         (&SUBPOLYNOMIALS[2..], ORANGE, "F₂: p₂ p₃ p₄ p₅"),
     ] {
         let label = format!("{name}, {} roots", roots(part)?.len());
-        plot.graph(|t| graph(part, t), 0.0, 1.0, color.line().width(2.4).label(label));
+        plot.graph(
+            |t| graph(part, t),
+            0.0,
+            1.0,
+            color.line().width(2.4).label(label),
+        );
     }
     plot.points(&polygon, Marker::Ring, INK.line());
-    let found: Vec<DVec2> = roots(&SUBPOLYNOMIALS)?.iter().map(|root| dvec2(root.value(), 0.0)).collect();
+    let found: Vec<DVec2> = roots(&SUBPOLYNOMIALS)?
+        .iter()
+        .map(|root| dvec2(root.value(), 0.0))
+        .collect();
     plot.points(&found, Marker::Disc, BLUE.fill());
     plot.legend(Corner::TopRight);
     Ok(plot)
@@ -159,14 +195,24 @@ fn lines() -> Result<Vec<(Line, [DVec2; 2])>> {
 }
 
 /// A line with its number of hits, the bound of the bold line and that of the control polygon.
-fn draw_lines(plot: &mut Plot, curve: Curve<'_>, refined: impl Fn(&[f64]) -> Result<usize>) -> Result<()> {
+fn draw_lines(
+    plot: &mut Plot,
+    curve: Curve<'_>,
+    refined: impl Fn(&[f64]) -> Result<usize>,
+) -> Result<()> {
     for (k, (line, [p, q])) in lines()?.into_iter().enumerate() {
         let coefficients = curve.line_coefficients(line);
         let hits = curve.meet_line(line)?;
         plot.segment(p, q, GREEN.line());
         let points: Vec<DVec2> = hits.iter().map(|hit| hit.point).collect();
         plot.points(&points, Marker::Disc, GREEN.fill());
-        let counts = format!("Δ{}: {} ≤ {} ≤ {}", k + 1, hits.len(), refined(&coefficients)?, sign_changes(&coefficients));
+        let counts = format!(
+            "Δ{}: hits {} ≤ bold {} ≤ polygon {}",
+            k + 1,
+            hits.len(),
+            refined(&coefficients)?,
+            sign_changes(&coefficients)
+        );
         plot.colored_text(q, &counts, Side::Right, GREEN.line());
     }
     Ok(())
@@ -175,6 +221,7 @@ fn draw_lines(plot: &mut Plot, curve: Curve<'_>, refined: impl Fn(&[f64]) -> Res
 fn curve_with_polygon(title: &str) -> Result<(Plot, Curve<'static>)> {
     let curve = Curve::polynomial(&CURVE)?;
     let mut plot = Plot::geometry(title);
+    plot.view(dvec2(-0.6, 0.2), dvec2(8.2, 4.2));
     plot.polyline(&CURVE, GREY.line().dashed());
     plot.trace(|t| curve.point(t), 0.0, 1.0, BLUE.line().width(2.4));
     Ok((plot, curve))
@@ -182,7 +229,7 @@ fn curve_with_polygon(title: &str) -> Result<(Plot, Curve<'static>)> {
 
 fn inner_curve() -> Result<Plot> {
     let (k, l) = (1, 4);
-    let (mut plot, curve) = curve_with_polygon("polygon, inner curve, polygon: hits ≤ bold ≤ polygon")?;
+    let (mut plot, curve) = curve_with_polygon("polygon, inner curve P₁..P₄, polygon")?;
     let inner = Curve::polynomial(&CURVE[k..=l])?;
     let bold = VERMILION.line().width(3.0);
     plot.polyline(&CURVE[..=k], bold.clone());
@@ -190,7 +237,10 @@ fn inner_curve() -> Result<Plot> {
     plot.polyline(&CURVE[l..], bold);
     draw_lines(&mut plot, curve, |p| {
         let bound = corollary_bound(p, k, l)?;
-        let inside = roots(&bound.middle)?.iter().filter_map(|root| root.multiplicity()).sum::<u32>();
+        let inside = roots(&bound.middle)?
+            .iter()
+            .filter_map(|root| root.multiplicity())
+            .sum::<u32>();
         Ok(bound.total(inside as usize))
     })?;
     plot.points(&CURVE, Marker::Disc, INK.fill());
@@ -199,10 +249,13 @@ fn inner_curve() -> Result<Plot> {
 
 fn pole_third() -> Result<Plot> {
     let pole = 1.0 / 3.0;
-    let (mut plot, curve) = curve_with_polygon("one pole at 1/3: hits ≤ bold ≤ polygon")?;
+    let (mut plot, curve) = curve_with_polygon("one pole at 1/3")?;
     let inner = polar_derivative(&CURVE, &pole)?;
     let [first, .., last] = CURVE;
-    let bold: Vec<DVec2> = std::iter::once(first).chain(inner.iter().copied()).chain([last]).collect();
+    let bold: Vec<DVec2> = std::iter::once(first)
+        .chain(inner.iter().copied())
+        .chain([last])
+        .collect();
     plot.polyline(&bold, VERMILION.line().width(3.0));
     draw_lines(&mut plot, curve, |p| Ok(chain_bound(p, &[pole])?.best))?;
     plot.points(&CURVE, Marker::Disc, INK.fill());
@@ -219,12 +272,26 @@ fn chain_plot(title: &str, coefficients: &[f64], poles: &[f64]) -> Result<Plot> 
     let mut plot = Plot::chart(title, "t", "");
     plot.segment(dvec2(0.0, 0.0), dvec2(1.0, 0.0), INK.line().width(0.8));
     let changes = sign_changes(coefficients);
-    plot.polyline(&polygon, GREY.line().dashed().label(format!("control polygon: at most {changes}")));
+    plot.polyline(
+        &polygon,
+        GREY.line()
+            .dashed()
+            .label(format!("control polygon: at most {changes}")),
+    );
     let label = format!("with poles: at most {}", bound.best);
     plot.polyline(&bold, VERMILION.line().width(3.0).label(label));
     let found = roots(coefficients)?;
-    let label = format!("F: {} root{}", found.len(), if found.len() == 1 { "" } else { "s" });
-    plot.graph(|t| graph(coefficients, t), 0.0, 1.0, BLUE.line().width(2.4).label(label));
+    let label = format!(
+        "F: {} root{}",
+        found.len(),
+        if found.len() == 1 { "" } else { "s" }
+    );
+    plot.graph(
+        |t| graph(coefficients, t),
+        0.0,
+        1.0,
+        BLUE.line().width(2.4).label(label),
+    );
     plot.points(&polygon, Marker::Ring, INK.line());
     plot.points(&bold, Marker::Dot, VERMILION.fill());
     let at: Vec<DVec2> = found.iter().map(|root| dvec2(root.value(), 0.0)).collect();
@@ -235,13 +302,20 @@ fn chain_plot(title: &str, coefficients: &[f64], poles: &[f64]) -> Result<Plot> 
 
 fn three_to_one() -> Result<Plot> {
     let mut plot = chain_plot("one pole at 1/2", &THREE_TO_ONE, &[0.5])?;
+    plot.view(dvec2(-0.04, -14.0), dvec2(1.04, 26.0));
     plot.legend(Corner::TopLeft);
     Ok(plot)
 }
 
 fn vanishing() -> Result<Plot> {
     // f(0,0,0,0,z1) = 0 and f(0,1,1,z1,z2) = 0, then the end b three times.
-    chain_plot("poles where the chain vanishes", &VANISHING, &[2.0 / 3.0, 20.0 / 31.0, 1.0, 1.0, 1.0])
+    let mut plot = chain_plot(
+        "poles where the chain vanishes",
+        &VANISHING,
+        &[2.0 / 3.0, 20.0 / 31.0, 1.0, 1.0, 1.0],
+    )?;
+    plot.view(dvec2(-0.04, -9.0), dvec2(1.04, 28.0));
+    Ok(plot)
 }
 
 /// The pole runs from 0 to 1 and back.
@@ -253,9 +327,14 @@ fn animation(context: &mut Context) -> Result<()> {
             let phase = f64::from(k) / f64::from(frames);
             let pole = 0.5 - 0.5 * (std::f64::consts::TAU * phase).cos();
             let mut plot = chain_plot(&format!("pole {pole:.2}"), &THREE_TO_ONE, &[pole])?;
-            plot.view(dvec2(-0.04, -14.0), dvec2(1.04, 19.0));
-            plot.segment(dvec2(pole, -14.0), dvec2(pole, 19.0), MIST.line());
-            plot.point(dvec2(pole, graph(&THREE_TO_ONE, pole)), "F(ζ)", Side::Above, GREEN.fill());
+            plot.view(dvec2(-0.04, -14.0), dvec2(1.04, 26.0));
+            plot.segment(dvec2(pole, -14.0), dvec2(pole, 26.0), MIST.line());
+            plot.point(
+                dvec2(pole, graph(&THREE_TO_ONE, pole)),
+                "F(ζ)",
+                Side::Above,
+                GREEN.fill(),
+            );
             plot.legend(Corner::TopLeft);
             Ok(Figure::new(plot).image(width))
         })
@@ -271,8 +350,20 @@ fn animation(context: &mut Context) -> Result<()> {
     let middle = chain_bound(&THREE_TO_ONE, &[0.5])?;
     let greedy = chain_bound_by(&THREE_TO_ONE, 1, PoleStrategy::Greedy)?;
     let exactly = |n: usize| Target::exactly(n);
-    context.number("example_polygon_changes", sign_changes(&THREE_TO_ONE), exactly(3));
-    context.number("example_refined_bound", middle.best.min(greedy.best), exactly(1));
-    context.number("example_roots", roots(&THREE_TO_ONE).context("the example has roots")?.len(), exactly(1));
+    context.number(
+        "example_polygon_changes",
+        sign_changes(&THREE_TO_ONE),
+        exactly(3),
+    );
+    context.number(
+        "example_refined_bound",
+        middle.best.min(greedy.best),
+        exactly(1),
+    );
+    context.number(
+        "example_roots",
+        roots(&THREE_TO_ONE).context("the example has roots")?.len(),
+        exactly(1),
+    );
     Ok(())
 }
