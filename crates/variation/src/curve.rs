@@ -397,14 +397,12 @@ struct InflectionForm<'a> {
 }
 
 impl InflectionForm<'_> {
-    /// The scaled polynomial of degree `n - 2` with the values number `k ..= k + n - 2`.
-    fn part<N: Number>(values: &[N], k: usize) -> Vec<N> {
-        let n = values.len() - 2;
-        values[k..]
-            .iter()
-            .take(n)
-            .enumerate()
-            .map(|(i, v)| v.times(binomial(n - 1, i)))
+    /// The scaled polynomial of degree `n - 2` with the values from number `k` on.
+    fn part<N: Number>(&self, values: &[N], k: usize) -> Vec<N> {
+        let size = self.curve.degree() - 1;
+        let part = values.iter().skip(k).take(size);
+        part.enumerate()
+            .map(|(i, v)| v.times(binomial(size - 1, i)))
             .collect()
     }
 }
@@ -441,22 +439,11 @@ impl Form for InflectionForm<'_> {
                     .collect::<Vec<N>>()
             };
             let (x, y) = (differences(&x), differences(&y));
-            let parts = |c: &[N], k: usize| -> Vec<N> {
-                let n = c.len() - 1;
-                c[k..]
-                    .iter()
-                    .take(n)
-                    .enumerate()
-                    .map(|(i, v)| v.times(binomial(n - 1, i)))
-                    .collect()
-            };
-            return subtract(
-                &convolve(&parts(&x, 0), &parts(&y, 1)),
-                &convolve(&parts(&y, 0), &parts(&x, 1)),
-            );
+            let cross = |i: usize, j: usize| convolve(&self.part(&x, i), &self.part(&y, j));
+            return subtract(&cross(0, 1), &cross(1, 0));
         }
         let w = exactly(&|_, w| (w, 1.0));
-        let [x, y, w] = [x, y, w].map(|c| [0, 1, 2].map(|k| Self::part(&c, k)));
+        let [x, y, w] = [x, y, w].map(|c| [0, 1, 2].map(|k| self.part(&c, k)));
         let minor = |i: usize, j: usize| subtract(&convolve(&x[i], &y[j]), &convolve(&y[i], &x[j]));
         let product = |k: usize, i: usize, j: usize| convolve(&w[k], &minor(i, j));
         subtract(

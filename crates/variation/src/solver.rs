@@ -143,6 +143,10 @@ pub(crate) struct Input<'a> {
     pub(crate) error: f64,
     /// Numbers of leading and of trailing coefficients that are certainly zero.
     pub(crate) zeros: (usize, usize),
+    #[cfg_attr(
+        not(feature = "exact"),
+        expect(dead_code, reason = "only exact arithmetic asks for it")
+    )]
     pub(crate) origin: Origin<'a>,
 }
 
