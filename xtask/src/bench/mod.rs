@@ -47,7 +47,7 @@ mod lorentz;
 
 mod ph_curves;
 
-// mod reconstruct;
+mod reconstruct;
 
 mod render;
 
@@ -64,7 +64,7 @@ pub fn all() -> Vec<Entry> {
         entry::<geodesic::Geodesic>(),
         entry::<lorentz::Lorentz>(),
         entry::<ph_curves::PhCurves>(),
-        // entry::<reconstruct::Reconstruct>(),
+        entry::<reconstruct::Reconstruct>(),
         entry::<render::Render>(),
         entry::<variation::Variation>(),
 

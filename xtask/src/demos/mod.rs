@@ -69,7 +69,7 @@ mod dual_control;
 
 // mod geodesic_loop;
 
-// mod geodesic_patch;
+mod geodesic_patch;
 
 // mod geodesic_surface;
 
@@ -81,9 +81,9 @@ mod mass_points;
 
 mod pencils;
 
-// mod ribbon;
+mod ribbon;
 
-// mod ribbon_surface;
+mod ribbon_surface;
 
 // mod rrmf_tube;
 
@@ -118,7 +118,7 @@ pub fn all() -> Vec<Entry> {
 
         // entry::<geodesic_loop::GeodesicLoop>(),
 
-        // entry::<geodesic_patch::GeodesicPatch>(),
+        entry::<geodesic_patch::GeodesicPatch>(),
 
         // entry::<geodesic_surface::GeodesicSurface>(),
         entry::<mass_points::MassPoints>(),
@@ -126,9 +126,9 @@ pub fn all() -> Vec<Entry> {
 
         // entry::<ovals::Ovals>(),
         entry::<pencils::Pencils>(),
-        // entry::<ribbon::Ribbon>(),
+        entry::<ribbon::Ribbon>(),
 
-        // entry::<ribbon_surface::RibbonSurface>(),
+        entry::<ribbon_surface::RibbonSurface>(),
 
         // entry::<rrmf_tube::RrmfTube>(),
         entry::<seahorse::Seahorse>(),
