@@ -21,11 +21,16 @@ fn setup(sensors: usize) -> (RibbonLayout, Vec<DVec3>) {
         }
     };
     let s = |i: usize| 4.0 * i as f64 / (sensors - 1) as f64;
-    let layout = RibbonLayout::new((0..sensors).map(|i| Sensor::new(s(i), kind(i))), world).unwrap();
+    let layout =
+        RibbonLayout::new((0..sensors).map(|i| Sensor::new(s(i), kind(i))), world).unwrap();
     let readings = (0..sensors).map(|i| {
         let x = DVec3::new(-0.6 * s(i).sin(), 0.6 * s(i).cos(), 0.8);
         let y = DVec3::Z.cross(x).normalize();
-        let field = if i.is_multiple_of(2) { world.up() } else { world.magnetic() };
+        let field = if i.is_multiple_of(2) {
+            world.up()
+        } else {
+            world.magnetic()
+        };
         DMat3::from_cols(x, y, x.cross(y)).transpose() * field
     });
     let readings = readings.collect();
@@ -37,7 +42,12 @@ fn setup(sensors: usize) -> (RibbonLayout, Vec<DVec3>) {
 fn streamed(bencher: Bencher<'_, '_>, sensors: usize) {
     let (layout, readings) = setup(sensors);
     let mut stream = RibbonStream::new(layout).unwrap();
-    bencher.bench_local(|| stream.frame(black_box(&readings)).map(|points| points[sensors - 1]).unwrap());
+    bencher.bench_local(|| {
+        stream
+            .frame(black_box(&readings))
+            .map(|points| points[sensors - 1])
+            .unwrap()
+    });
 }
 
 /// The same with the covariance ready: quadratic in the sensors.

@@ -5,8 +5,8 @@
 
 use glam::DVec3;
 use reconstruct::{
-    BezierStrip, CornerData, Criterion, Degree7Shape, Error, Rectangle, boundary_geodesic_curvature,
-    degree7_boundaries,
+    BezierStrip, CornerData, Criterion, Degree7Shape, Error, Rectangle,
+    boundary_geodesic_curvature, degree7_boundaries,
 };
 
 /// Point, tangent plane and normal curvatures of the paraboloid `z = (x² + y²) / 4`.
@@ -23,7 +23,8 @@ fn main() -> Result<(), Error> {
         [corner(0.1, -0.2)?, corner(0.0, 1.1)?],
         [corner(1.2, 0.0)?, corner(1.0, 1.0)?],
     ];
-    let [r1, r2, r3, r4] = degree7_boundaries(&corners, &Degree7Shape::default())?.map(BezierStrip::new);
+    let [r1, r2, r3, r4] =
+        degree7_boundaries(&corners, &Degree7Shape::default())?.map(BezierStrip::new);
     let rectangle = Rectangle::new([r1?, r2?, r3?, r4?])?;
     println!(
         "C1, C2, C3 hold: residual of C3 {:.1e}, {} reversals",
@@ -47,7 +48,8 @@ fn main() -> Result<(), Error> {
     let old = corners[1][1];
     let mut bad = corners;
     bad[1][1] = CornerData::new(old.point(), old.normal(), old.tangents(), [-k, l])?;
-    let [r1, r2, r3, r4] = degree7_boundaries(&bad, &Degree7Shape::default())?.map(BezierStrip::new);
+    let [r1, r2, r3, r4] =
+        degree7_boundaries(&bad, &Degree7Shape::default())?.map(BezierStrip::new);
     if let Err(error) = Rectangle::new([r1?, r2?, r3?, r4?]) {
         println!("refused: {error}");
     }

@@ -11,7 +11,13 @@ fn main() -> Result<(), reconstruct::Error> {
     let world = WorldFields::with_dip(62_f64.to_radians())?;
     let one = DVec3::ONE;
     let gravity = Calibration::new(DVec3::ZERO, one, DMat3::IDENTITY, 19.6, 9.81)?;
-    let field = Calibration::new(DVec3::new(3.0, -1.0, 2.0), one, DMat3::IDENTITY, 600.0, 48.0)?;
+    let field = Calibration::new(
+        DVec3::new(3.0, -1.0, 2.0),
+        one,
+        DMat3::IDENTITY,
+        600.0,
+        48.0,
+    )?;
     let layout = RibbonLayout::new(
         (0..32).map(|i| {
             let s = 0.025 * f64::from(i);
@@ -46,7 +52,10 @@ fn main() -> Result<(), reconstruct::Error> {
     for i in [0, 8, 16, 24, 31] {
         let (s, p, c) = (ribbon.arc_lengths()[i], ribbon.points()[i], covariance[i]);
         let sigma = (c.x_axis.x + c.y_axis.y + c.z_axis.z).sqrt();
-        println!("s = {s:.3} m   position {p:.4}   sigma {:.2} mm", 1e3 * sigma);
+        println!(
+            "s = {s:.3} m   position {p:.4}   sigma {:.2} mm",
+            1e3 * sigma
+        );
     }
 
     // Frame by frame, without allocating; an impossible reading is named and the last good shape kept.

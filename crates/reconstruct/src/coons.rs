@@ -13,7 +13,7 @@ use crate::hermite::{HermiteCubic, combine, hermite, least_same_sign};
 use crate::strip::{GeodesicStrip, Strip, StripSample};
 use crate::{Error, Surface};
 use bezier_mass::Partials;
-use glam::DVec3;
+use glam::{DMat2, DVec2, DVec3};
 
 /// The tangential parts of the four corner twists `R_uv`, the free parameters of a rectangle: corners in the
 /// order 00, 10, 01, 11, components along `e` and `N x e`, `e` the unit tangent of the boundary along `u` and
@@ -173,6 +173,36 @@ impl<S: Strip> Rectangle<S> {
     fn twist(&self, corner: usize, [a, b]: [f64; 2]) -> DVec3 {
         let frame = &self.corners[corner];
         frame.tangents[0] * a + frame.tangents[1] * b + frame.normal * frame.twist_normal
+    }
+
+    /// The twists with which the component across each boundary is stationary at its ends. Between end values of one
+    /// sign it is then monotone and vanishes nowhere: these twists give a regular boundary where any do.
+    ///
+    /// For strips of frames they are zero; for Bézier strips they compensate that `across` grows along the curve.
+    #[must_use]
+    pub fn regular_twists(&self) -> Twists {
+        core::array::from_fn(|corner| {
+            let [i, j] = CORNERS[corner];
+            let [u, v] = sides_at([i, j]);
+            let (along_u, along_v) = (&self.ends[u][i], &self.ends[v][j]);
+            // The slope of `q` vanishes where `W . b = (p a' + q b') . b`: two equations for the tangential part.
+            let demand = |sample: &StripSample, value: DVec3| {
+                let [p, q] = components(sample, value);
+                let direction = sample.across[0].normalize_or_zero();
+                (
+                    direction,
+                    (sample.along[1] * p + sample.across[1] * q).dot(direction),
+                )
+            };
+            let (b1, c1) = demand(along_u, along_v.point[1]);
+            let (b2, c2) = demand(along_v, along_u.point[1]);
+            let [e, h] = self.corners[corner].tangents;
+            let matrix = DMat2::from_cols(
+                DVec2::new(b1.dot(e), b2.dot(e)),
+                DVec2::new(b1.dot(h), b2.dot(h)),
+            );
+            (matrix.inverse() * DVec2::new(c1, c2)).to_array()
+        })
     }
 
     /// The patch with the given twists.

@@ -36,7 +36,13 @@ pub(crate) fn to_bernstein([value0, slope0, slope1, value1]: HermiteCubic) -> [f
 
 /// The least of `sign * cubic` on `[0, 1]` and where, `sign` that of the start value.
 pub(crate) fn least_same_sign(cubic: HermiteCubic) -> (f64, f64) {
+    // Scaled to one, so that nothing overflows.
+    let scale = cubic.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+    if scale == 0.0 || !scale.is_finite() {
+        return (if scale == 0.0 { 0.0 } else { f64::NAN }, 0.0);
+    }
     let sign = if cubic[0] < 0.0 { -1.0 } else { 1.0 };
+    let cubic = cubic.map(|c| c / scale);
     let value = |t: f64| sign * combine(&cubic, &hermite(t))[0];
     // The derivative is the quadratic a t² + b t + c.
     let [v0, s0, s1, v1] = cubic;
@@ -51,9 +57,9 @@ pub(crate) fn least_same_sign(cubic: HermiteCubic) -> (f64, f64) {
     [0.0, 1.0]
         .into_iter()
         .chain(stationary.into_iter().filter(|t| *t > 0.0 && *t < 1.0))
-        .map(|t| (value(t), t))
+        .map(|t| (scale * value(t), t))
         .min_by(|x, y| x.0.total_cmp(&y.0))
-        .unwrap_or((value(0.0), 0.0))
+        .unwrap_or((scale * value(0.0), 0.0))
 }
 
 #[cfg(test)]

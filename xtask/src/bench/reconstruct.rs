@@ -6,8 +6,8 @@ use anyhow::Result;
 use bezier_mass::BezierCurve;
 use glam::{DMat3, DVec3, dvec3};
 use reconstruct::{
-    AnalyticCurve, BezierStrip, CornerData, Corners, Criterion, Degree7Shape, GeodesicStrip, Rectangle, RibbonLayout,
-    RibbonStream, Sensor, SensorKind, WorldFields, degree7_boundaries,
+    AnalyticCurve, BezierStrip, CornerData, Corners, Criterion, Degree7Shape, GeodesicStrip,
+    Rectangle, RibbonLayout, RibbonStream, Sensor, SensorKind, WorldFields, degree7_boundaries,
 };
 use serde_json::{Value, json};
 
@@ -22,14 +22,19 @@ pub(super) struct Reconstruct {
 
 impl Bench for Reconstruct {
     const NAME: &'static str = "reconstruct";
-    const ABOUT: &'static str = "Frames of ribbon sensors, smoothing of rectangles, construction of patches";
+    const ABOUT: &'static str =
+        "Frames of ribbon sensors, smoothing of rectangles, construction of patches";
 
     fn run(&self, timer: &Timer) -> Result<Value> {
         let mut rows = Vec::new();
         let mut sensors = 8;
         while sensors <= self.sensors as usize {
             let (mut stream, readings) = ribbon(sensors)?;
-            let ns = timer.nanoseconds(|| stream.frame(black_box(&readings)).map(|points| points[points.len() - 1]));
+            let ns = timer.nanoseconds(|| {
+                stream
+                    .frame(black_box(&readings))
+                    .map(|points| points[points.len() - 1])
+            });
             rows.push(json!({ "work": "frame", "sensors": sensors, "µs": ns / 1e3, "ns per sensor": ns / sensors as f64 }));
             sensors *= 2;
         }
@@ -37,18 +42,41 @@ impl Bench for Reconstruct {
         let curves = degree7_boundaries(&corners()?, &Degree7Shape::default())?;
         let bezier = Rectangle::new(strips(&curves)?)?;
         let mut push = |work: &str, ns: f64| rows.push(json!({ "work": work, "µs": ns / 1e3 }));
-        push("rectangle of helices: conditions and patch", timer.nanoseconds(|| {
-            Rectangle::new(black_box(cylinder.clone())).and_then(|r| r.patch([[0.0; 2]; 4]))
-        }));
-        push("rectangle of degree 7: conditions and patch", timer.nanoseconds(|| {
-            strips(black_box(&curves)).and_then(Rectangle::new).and_then(|r| r.patch([[0.0; 2]; 4]))
-        }));
+        push(
+            "rectangle of helices: conditions and patch",
+            timer.nanoseconds(|| {
+                Rectangle::new(black_box(cylinder.clone())).and_then(|r| r.patch([[0.0; 2]; 4]))
+            }),
+        );
+        push(
+            "rectangle of degree 7: conditions and patch",
+            timer.nanoseconds(|| {
+                strips(black_box(&curves))
+                    .and_then(Rectangle::new)
+                    .and_then(|r| r.patch([[0.0; 2]; 4]))
+            }),
+        );
         let patch = bezier.patch([[0.0; 2]; 4])?;
-        push("its control net, bidegree 13", timer.nanoseconds(|| black_box(&patch).to_bezier()));
-        push("boundaries of degree 7", timer.nanoseconds(|| corners().and_then(|c| degree7_boundaries(&c, &Degree7Shape::default()))));
+        push(
+            "its control net, bidegree 13",
+            timer.nanoseconds(|| black_box(&patch).to_bezier()),
+        );
+        push(
+            "boundaries of degree 7",
+            timer.nanoseconds(|| {
+                corners().and_then(|c| degree7_boundaries(&c, &Degree7Shape::default()))
+            }),
+        );
         let helices = Rectangle::new(cylinder.clone())?;
-        for (criterion, name) in [(Criterion::Dirichlet, "Dirichlet"), (Criterion::ThinPlate, "thin plate"), (Criterion::SpeedVariation, "speed variation")] {
-            push(&format!("smoothing of helices, {name}"), timer.nanoseconds(|| black_box(&helices).smoothest(criterion)));
+        for (criterion, name) in [
+            (Criterion::Dirichlet, "Dirichlet"),
+            (Criterion::ThinPlate, "thin plate"),
+            (Criterion::SpeedVariation, "speed variation"),
+        ] {
+            push(
+                &format!("smoothing of helices, {name}"),
+                timer.nanoseconds(|| black_box(&helices).smoothest(criterion)),
+            );
         }
         Ok(json!({ "rows": rows }))
     }
@@ -57,14 +85,24 @@ impl Bench for Reconstruct {
 /// An alternating ribbon and readings of a helix.
 fn ribbon(sensors: usize) -> Result<(RibbonStream, Vec<DVec3>)> {
     let world = WorldFields::with_dip(1.08)?;
-    let kind = |i: usize| if i.is_multiple_of(2) { SensorKind::Accelerometer } else { SensorKind::Magnetometer };
+    let kind = |i: usize| {
+        if i.is_multiple_of(2) {
+            SensorKind::Accelerometer
+        } else {
+            SensorKind::Magnetometer
+        }
+    };
     let s = |i: usize| 4.0 * i as f64 / (sensors - 1) as f64;
     let layout = RibbonLayout::new((0..sensors).map(|i| Sensor::new(s(i), kind(i))), world)?;
     let readings = (0..sensors)
         .map(|i| {
             let x = dvec3(-0.6 * s(i).sin(), 0.6 * s(i).cos(), 0.8);
             let y = DVec3::Z.cross(x).normalize();
-            let field = if i.is_multiple_of(2) { world.up() } else { world.magnetic() };
+            let field = if i.is_multiple_of(2) {
+                world.up()
+            } else {
+                world.magnetic()
+            };
             DMat3::from_cols(x, y, x.cross(y)).transpose() * field
         })
         .collect();
@@ -76,7 +114,8 @@ fn cylinder() -> Result<[GeodesicStrip; 4], reconstruct::Error> {
     let corners = [[0.0, 0.0], [1.0, 0.2], [0.3, 0.9], [1.25, 1.15]];
     let helix = |a: usize, b: usize| {
         GeodesicStrip::new(AnalyticCurve::new(move |t| {
-            let [angle, height] = [0, 1].map(|k| t * (corners[b][k] - corners[a][k]) + corners[a][k]);
+            let [angle, height] =
+                [0, 1].map(|k| t * (corners[b][k] - corners[a][k]) + corners[a][k]);
             let (sin, cos) = angle.sin_cos();
             [cos, sin, height]
         }))
@@ -90,9 +129,17 @@ fn corners() -> Result<Corners, reconstruct::Error> {
         let (u, v) = (dvec3(1.0, 0.0, 0.5 * x), dvec3(0.0, 1.0, 0.5 * y));
         let normal = u.cross(v);
         let curvature = |t: DVec3| 0.5 / (normal.length() * t.length_squared());
-        CornerData::new(dvec3(x, y, 0.25 * (x * x + y * y)), normal, [u, v], [curvature(u), curvature(v)])
+        CornerData::new(
+            dvec3(x, y, 0.25 * (x * x + y * y)),
+            normal,
+            [u, v],
+            [curvature(u), curvature(v)],
+        )
     };
-    Ok([[at(0.1, -0.2)?, at(0.0, 1.1)?], [at(1.2, 0.0)?, at(1.0, 1.0)?]])
+    Ok([
+        [at(0.1, -0.2)?, at(0.0, 1.1)?],
+        [at(1.2, 0.0)?, at(1.0, 1.0)?],
+    ])
 }
 
 fn strips(curves: &[BezierCurve<DVec3>; 4]) -> Result<[BezierStrip; 4], reconstruct::Error> {

@@ -11,9 +11,10 @@ use anyhow::{Result, ensure};
 use bezier_mass::{BezierCurve, BezierPatch};
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use reconstruct::{
-    AnalyticCurve, BezierStrip, CornerData, Corners, Criterion, Curve, Curvatures, Degree7Shape, Error, FrenetFrame,
-    GeodesicStrip, Rectangle, Series, Surface, Triangle, TrianglePatch, boundary_geodesic_curvature, degree7_boundaries,
-    rational_quintic_boundaries, tessellate_triangle,
+    AnalyticCurve, BezierStrip, CornerData, Corners, Criterion, Curvatures, Curve, Degree7Shape,
+    Error, FrenetFrame, GeodesicStrip, Rectangle, Series, Surface, Triangle, TrianglePatch,
+    boundary_geodesic_curvature, degree7_boundaries, rational_quintic_boundaries,
+    tessellate_triangle,
 };
 
 use crate::color::{BLUE, Color, ColorMap, GREEN, INK, ORANGE, VERMILION};
@@ -26,9 +27,9 @@ use crate::report::Target;
 
 #[derive(clap::Args, Debug)]
 pub(super) struct GeodesicPatch {
-    /// Height of the saddle in the middle of the model from which the corner data are read
+    /// How strongly the model bends from which the corner data are read
     #[arg(long, default_value_t = 0.35)]
-    height: f64,
+    bend: f64,
 }
 
 /// Places on a boundary at which its geodesic curvature is measured.
@@ -42,20 +43,27 @@ const CRITERIA: [(Criterion, &str); 3] = [
 impl Demo for GeodesicPatch {
     const NAME: &'static str = "geodesic-patch";
     const PAPER: &'static str = "ph-geodesic-variation-wavefront, Figs 3.18 to 3.26";
-    const ABOUT: &'static str = "Rectangles, triangles and Bézier patches whose boundary curves are geodesics";
+    const ABOUT: &'static str =
+        "Rectangles, triangles and Bézier patches whose boundary curves are geodesics";
 
     fn run(&self, context: &mut Context) -> Result<()> {
-        let corners = corners(self.height)?;
+        let corners = corners(self.bend)?;
         let curves = degree7_boundaries(&corners, &Degree7Shape::default())?;
         let rectangle = Rectangle::new(strips(&curves)?)?;
-        let mut worst = Worst { curvature: 0.0, c3: rectangle.report().c3_residual };
+        let mut worst = Worst {
+            curvature: 0.0,
+            c3: rectangle.report().c3_residual,
+        };
         let patches = criteria(context, &rectangle, &mut worst)?;
         let degree7 = patches[2].clone();
 
         let quintics = rational_quintic_boundaries(&corners)?;
         let rational = Rectangle::new(strips(&quintics)?)?;
         worst.c3 = worst.c3.max(rational.report().c3_residual);
-        let rational = rational.smoothest(Criterion::ThinPlate)?.patch.to_bezier()?;
+        let rational = rational
+            .smoothest(Criterion::ThinPlate)?
+            .patch
+            .to_bezier()?;
         worst.see(&rational);
         let error = corner_error(&corners, &curves)?.max(corner_error(&corners, &quintics)?);
         context.number("corner_data_error", error, Target::AtMost(1e-10));
@@ -64,11 +72,21 @@ impl Demo for GeodesicPatch {
         worst.c3 = worst.c3.max(triangle.report().c3_residual);
         let domain = [DVec2::ZERO, dvec2(1.0, 0.0), dvec2(0.5, 0.75_f64.sqrt())];
         let filled = triangle.smoothest(domain)?.patch;
-        worst.curvature = worst.curvature.max(filled.boundary_geodesic_curvature(PLACES));
+        worst.curvature = worst
+            .curvature
+            .max(filled.boundary_geodesic_curvature(PLACES));
         let residual = filled.integrated_curvature(24) - triangle.total_curvature();
-        context.number("gauss_bonnet_residual", residual.abs(), Target::AtMost(1e-9));
+        context.number(
+            "gauss_bonnet_residual",
+            residual.abs(),
+            Target::AtMost(1e-9),
+        );
 
-        context.number("boundary_geodesic_curvature_max", worst.curvature, Target::AtMost(1e-8));
+        context.number(
+            "boundary_geodesic_curvature_max",
+            worst.curvature,
+            Target::AtMost(1e-8),
+        );
         context.number("c3_max_residual", worst.c3, Target::AtMost(1e-8));
         bad_sets(context, &corners, &curves)?;
         draw(context, &patches, &curves, &rational, &quintics, &filled)?;
@@ -84,7 +102,9 @@ struct Worst {
 
 impl Worst {
     fn see(&mut self, surface: &impl Surface) {
-        self.curvature = self.curvature.max(boundary_geodesic_curvature(surface, PLACES));
+        self.curvature = self
+            .curvature
+            .max(boundary_geodesic_curvature(surface, PLACES));
     }
 }
 
@@ -95,7 +115,10 @@ fn corners(height: f64) -> Result<Corners, Error> {
         let (a, b) = (height / 2.0, -height / 3.0);
         let r = x * x + y * y;
         let z = 0.5 * (a * x * x + b * y * y) + x * y / 12.0 - r * r / 90.0;
-        let (fx, fy) = (a * x + y / 12.0 - 4.0 * r * x / 90.0, b * y + x / 12.0 - 4.0 * r * y / 90.0);
+        let (fx, fy) = (
+            a * x + y / 12.0 - 4.0 * r * x / 90.0,
+            b * y + x / 12.0 - 4.0 * r * y / 90.0,
+        );
         let second = [
             a - (4.0 * r + 8.0 * x * x) / 90.0,
             1.0 / 12.0 - 8.0 * x * y / 90.0,
@@ -109,7 +132,12 @@ fn corners(height: f64) -> Result<Corners, Error> {
             bend / (normal.length() * tangent(d).length_squared())
         };
         let (u, v) = (tangent(along_u), tangent(along_v));
-        CornerData::new(dvec3(x, y, z), normal, [u, v], [curvature(along_u), curvature(along_v)])
+        CornerData::new(
+            dvec3(x, y, z),
+            normal,
+            [u, v],
+            [curvature(along_u), curvature(along_v)],
+        )
     };
     Ok([
         [
@@ -144,14 +172,22 @@ fn criteria(
         worst.see(&bezier);
         patches.push(bezier);
     }
-    let own = (0..3).filter(|c| (0..3).all(|row| table[*c][*c] <= table[row][*c] * (1.0 + 1e-12))).count();
+    let own = (0..3)
+        .filter(|c| (0..3).all(|row| table[*c][*c] <= table[row][*c] * (1.0 + 1e-12)))
+        .count();
     let rows: Vec<Vec<f64>> = table.iter().map(|row| row.to_vec()).collect();
     context.number("energy_by_criterion", rows, Target::Free);
     context.number("own_minimum_is_smallest", own, Target::exactly(3));
-    let mut plot = Plot::chart("energy over the least of its kind", "criterion that was minimised", "ratio");
+    let mut plot = Plot::chart(
+        "energy over the least of its kind",
+        "criterion that was minimised",
+        "ratio",
+    );
     for (c, color) in [VERMILION, BLUE, GREEN].into_iter().enumerate() {
         let least = table[c][c];
-        let points: Vec<DVec2> = (0..3).map(|row| dvec2(row as f64 + 1.0, table[row][c] / least)).collect();
+        let points: Vec<DVec2> = (0..3)
+            .map(|row| dvec2(row as f64 + 1.0, table[row][c] / least))
+            .collect();
         plot.polyline(&points, color.line().label(CRITERIA[c].1));
         plot.points(&points, crate::figure::Marker::Disc, color.fill());
     }
@@ -170,7 +206,10 @@ fn corner_error(corners: &Corners, curves: &[BezierCurve<DVec3>; 4]) -> Result<f
     let mut worst: f64 = 0.0;
     for (i, row) in corners.iter().enumerate() {
         for (j, corner) in row.iter().enumerate() {
-            for (axis, (side, t)) in [(2 * j, i as f64), (1 + 2 * i, j as f64)].into_iter().enumerate() {
+            for (axis, (side, t)) in [(2 * j, i as f64), (1 + 2 * i, j as f64)]
+                .into_iter()
+                .enumerate()
+            {
                 let frame = FrenetFrame::at(&curves[side], t)?;
                 let bend = corner.normal() * corner.curvatures()[axis];
                 worst = worst
@@ -185,7 +224,12 @@ fn corner_error(corners: &Corners, curves: &[BezierCurve<DVec3>; 4]) -> Result<f
 
 /// Three great circles of the unit sphere.
 fn triangle() -> Result<Triangle, Error> {
-    let corners = [dvec3(1.0, 0.0, -0.2), dvec3(0.1, 1.0, -0.1), dvec3(0.25, 0.3, 0.9)].map(DVec3::normalize);
+    let corners = [
+        dvec3(1.0, 0.0, -0.2),
+        dvec3(0.1, 1.0, -0.1),
+        dvec3(0.25, 0.3, 0.9),
+    ]
+    .map(DVec3::normalize);
     let side = |k: usize| {
         let (a, b) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);
         let (across, angle) = ((b - a * a.dot(b)).normalize(), a.angle_between(b));
@@ -198,9 +242,17 @@ fn triangle() -> Result<Triangle, Error> {
 }
 
 /// Boundaries that violate one condition each: every one must be refused, and by its name.
-fn bad_sets(context: &mut Context, corners: &Corners, curves: &[BezierCurve<DVec3>; 4]) -> Result<()> {
+fn bad_sets(
+    context: &mut Context,
+    corners: &Corners,
+    curves: &[BezierCurve<DVec3>; 4],
+) -> Result<()> {
     let moved = |index: usize, offset: DVec3| -> Result<[BezierCurve<DVec3>; 4]> {
-        let mut points: Vec<DVec3> = curves[0].control().iter().filter_map(|h| h.position()).collect();
+        let mut points: Vec<DVec3> = curves[0]
+            .control()
+            .iter()
+            .filter_map(|h| h.position())
+            .collect();
         points[index] += offset;
         let mut damaged = curves.clone();
         damaged[0] = BezierCurve::polynomial(&points)?;
@@ -212,12 +264,20 @@ fn bad_sets(context: &mut Context, corners: &Corners, curves: &[BezierCurve<DVec
     let corner = &corners[1][1];
     let [k, l] = corner.curvatures();
     reversed[1][1] = CornerData::new(corner.point(), corner.normal(), corner.tangents(), [-k, l])?;
-    let twice = [curves[0].clone(), curves[0].clone(), curves[2].clone(), curves[3].clone()];
+    let twice = [
+        curves[0].clone(),
+        curves[0].clone(),
+        curves[2].clone(),
+        curves[3].clone(),
+    ];
     let sets = [
         ("corner mismatch", moved(0, along_v * 0.05)?),
         ("C1", moved(2, along_v * 0.05)?),
         ("C3", moved(3, along_v * 0.05)?),
-        ("C2", degree7_boundaries(&reversed, &Degree7Shape::default())?),
+        (
+            "C2",
+            degree7_boundaries(&reversed, &Degree7Shape::default())?,
+        ),
         ("parallel tangents", twice),
     ];
     let mut refused = 0;
@@ -232,7 +292,9 @@ fn bad_sets(context: &mut Context, corners: &Corners, curves: &[BezierCurve<DVec
 }
 
 fn patch_mesh(surface: &impl Surface, steps: usize) -> Mesh {
-    Mesh::grid(steps, steps, |u, v| (surface.point(u, v), surface.normal(u, v)))
+    Mesh::grid(steps, steps, |u, v| {
+        (surface.point(u, v), surface.normal(u, v))
+    })
 }
 
 fn triangle_mesh(patch: &TrianglePatch, steps: usize) -> Result<Mesh> {
@@ -246,7 +308,9 @@ fn triangle_mesh(patch: &TrianglePatch, steps: usize) -> Result<Mesh> {
 
 fn boundary_tubes<'a>(curves: impl IntoIterator<Item = &'a BezierCurve<DVec3>>) -> Mesh {
     Mesh::merged(curves.into_iter().map(|curve| {
-        let points: Vec<DVec3> = (0..=80).map(|i| Curve::point(curve, f64::from(i) / 80.0)).collect();
+        let points: Vec<DVec3> = (0..=80)
+            .map(|i| Curve::point(curve, f64::from(i) / 80.0))
+            .collect();
         Mesh::tube(&points, 0.018, false)
     }))
 }
@@ -276,7 +340,9 @@ fn draw(
     triangle: &TrianglePatch,
 ) -> Result<()> {
     let steps = context.pick(160, 40);
-    let apart = |mesh: Mesh, k: usize| mesh.transformed(glam::DAffine3::from_translation(DVec3::X * 4.0 * k as f64));
+    let apart = |mesh: Mesh, k: usize| {
+        mesh.transformed(glam::DAffine3::from_translation(DVec3::X * 4.0 * k as f64))
+    };
     let mut three = Scene::new();
     for (k, patch) in patches.iter().enumerate() {
         three.add(apart(patch_mesh(patch, steps), k), Material::zebra())?;
@@ -293,12 +359,21 @@ fn draw(
     )?;
 
     let mut built = Scene::new();
-    built.add(patch_mesh(&patches[2], steps), Material::glossy(Color::hex(0x7fb2d9)))?;
+    built.add(
+        patch_mesh(&patches[2], steps),
+        Material::glossy(Color::hex(0x7fb2d9)),
+    )?;
     built.add(boundary_tubes(curves), Material::matte(VERMILION))?;
     add_polygons(&mut built, curves)?;
     let offset = glam::DAffine3::from_translation(DVec3::X * 4.2);
-    built.add(patch_mesh(rational, steps).transformed(offset), Material::glossy(Color::hex(0xf0c987)))?;
-    built.add(boundary_tubes(quintics).transformed(offset), Material::matte(VERMILION))?;
+    built.add(
+        patch_mesh(rational, steps).transformed(offset),
+        Material::glossy(Color::hex(0xf0c987)),
+    )?;
+    built.add(
+        boundary_tubes(quintics).transformed(offset),
+        Material::matte(VERMILION),
+    )?;
     built.ground_below();
     let camera = built.camera(dvec3(0.2, -1.0, 1.0), context.aspect());
     context.render(
@@ -313,7 +388,10 @@ fn draw(
     // `Mesh::grid` runs along u first; so do the numbers.
     let (mesh, bound) = with_curvature(patch_mesh(&patches[2], steps), &patches[2], steps);
     ensure!(mesh.scalar.is_some(), "the mesh carries its curvature");
-    coloured.add(mesh, Material::scalar(ColorMap::Diverging, -bound, bound).isolines(bound / 4.0))?;
+    coloured.add(
+        mesh,
+        Material::scalar(ColorMap::Diverging, -bound, bound).isolines(bound / 4.0),
+    )?;
     coloured.add(boundary_tubes(curves), Material::matte(INK))?;
     coloured.layer("curvature.K").ground_below();
     let camera = coloured.camera(dvec3(0.25, -1.0, 1.0), context.aspect());
@@ -334,7 +412,10 @@ fn draw(
             strips[k as usize].curve().point(t)
         })
         .collect();
-    ball.add(Mesh::tube(&sides[..240], 0.008, true), Material::matte(VERMILION))?;
+    ball.add(
+        Mesh::tube(&sides[..240], 0.008, true),
+        Material::matte(VERMILION),
+    )?;
     ball.ground_below();
     let camera = ball.camera(dvec3(1.0, 0.9, 0.6), context.aspect());
     context.render(
@@ -349,7 +430,11 @@ fn draw(
 /// Control polygons as thin tubes with beads.
 fn add_polygons(scene: &mut Scene, curves: &[BezierCurve<DVec3>; 4]) -> Result<()> {
     for curve in curves {
-        let points: Vec<DVec3> = curve.control().iter().filter_map(|h| h.position()).collect();
+        let points: Vec<DVec3> = curve
+            .control()
+            .iter()
+            .filter_map(|h| h.position())
+            .collect();
         scene.add(Mesh::tube(&points, 0.006, false), Material::matte(INK))?;
         let beads = points.iter().map(|p| Mesh::sphere(*p, 0.03, 1e-3));
         scene.add(Mesh::merged(beads), Material::glossy(ORANGE))?;
@@ -368,7 +453,11 @@ fn export(
     let c = triangle_mesh(triangle, steps)?;
     context.meshes(
         "patches",
-        &[Part::new("degree7", &a, BLUE), Part::new("rational5", &b, ORANGE), Part::new("triangle", &c, GREEN)],
+        &[
+            Part::new("degree7", &a, BLUE),
+            Part::new("rational5", &b, ORANGE),
+            Part::new("triangle", &c, GREEN),
+        ],
     )?;
     let mut step = Step::new("geodesic patches");
     step.patch(degree7)?.patch(rational)?;

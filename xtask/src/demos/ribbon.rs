@@ -12,8 +12,8 @@ use std::time::Instant;
 use anyhow::{Context as _, Result, ensure};
 use glam::{DMat2, DMat3, DVec2, DVec3, dvec2, dvec3};
 use reconstruct::{
-    EndCondition, PlanarRibbon, RibbonLayout, RibbonStream, Sensor, SensorKind, SpatialRibbon, TangentMethod,
-    WorldFields,
+    EndCondition, PlanarRibbon, RibbonLayout, RibbonStream, Sensor, SensorKind, SpatialRibbon,
+    TangentMethod, WorldFields,
 };
 
 use crate::color::{BLUE, GREEN, GREY, INK, ORANGE, SKY, VERMILION};
@@ -35,13 +35,16 @@ pub(super) struct Ribbon {
 
 /// Standard deviation of the angles in the noisy picture, radians (half a degree).
 const SIGMA: f64 = 0.5 * TAU / 360.0;
+/// That of the drawn bundle, so that it can be seen.
+const DRAWN_SIGMA: f64 = 3.0 * TAU / 360.0;
 /// Length of the test curves.
 const LENGTH: f64 = 4.0;
 
 impl Demo for Ribbon {
     const NAME: &'static str = "ribbon";
     const PAPER: &'static str = "ph-geodesic-variation-wavefront, Figs 3.2 to 3.7";
-    const ABOUT: &'static str = "Plane and space curves reconstructed from orientation sensors on a ribbon";
+    const ABOUT: &'static str =
+        "Plane and space curves reconstructed from orientation sensors on a ribbon";
 
     fn run(&self, context: &mut Context) -> Result<()> {
         if let Some(path) = &self.readings {
@@ -62,12 +65,21 @@ fn angle(s: f64) -> f64 {
 
 /// The space test curve: its unit tangent.
 fn tangent(s: f64) -> DVec3 {
-    let (polar, azimuth) = (1.0 + 0.45 * (1.3 * s).sin(), 0.3 + 1.2 * s + 0.2 * (2.1 * s).cos());
-    dvec3(polar.sin() * azimuth.cos(), polar.sin() * azimuth.sin(), polar.cos())
+    let (polar, azimuth) = (
+        1.0 + 0.45 * (1.3 * s).sin(),
+        0.3 + 1.2 * s + 0.2 * (2.1 * s).cos(),
+    );
+    dvec3(
+        polar.sin() * azimuth.cos(),
+        polar.sin() * azimuth.sin(),
+        polar.cos(),
+    )
 }
 
 fn places(intervals: usize) -> Vec<f64> {
-    (0..=intervals).map(|i| LENGTH * i as f64 / intervals as f64).collect()
+    (0..=intervals)
+        .map(|i| LENGTH * i as f64 / intervals as f64)
+        .collect()
 }
 
 fn planar(intervals: usize, end: EndCondition) -> Result<PlanarRibbon> {
@@ -90,7 +102,9 @@ fn draw_three_problems(context: &mut Context) -> Result<()> {
     let truth = planar(FINE, EndCondition::NotAKnot)?;
     let sensors = planar(8, EndCondition::NotAKnot)?;
     let at = |i: usize| truth.points()[i * FINE / 8];
-    let directions: Vec<DVec2> = (0..=8).map(|i| DVec2::from_angle(angle(LENGTH * i as f64 / 8.0))).collect();
+    let directions: Vec<DVec2> = (0..=8)
+        .map(|i| DVec2::from_angle(angle(LENGTH * i as f64 / 8.0)))
+        .collect();
     let curve = |plot: &mut Plot| {
         plot.polyline(truth.points(), SKY.line().width(2.0));
     };
@@ -102,16 +116,29 @@ fn draw_three_problems(context: &mut Context) -> Result<()> {
     }
     for (i, direction) in directions.iter().enumerate() {
         hermite.arrow(at(i), at(i) + *direction * 0.35, VERMILION.line());
-        dual.segment(at(i) - *direction * 0.45, at(i) + *direction * 0.45, VERMILION.line());
+        dual.segment(
+            at(i) - *direction * 0.45,
+            at(i) + *direction * 0.45,
+            VERMILION.line(),
+        );
         // The directions only, each in its place on the straightened ribbon below.
         let place = dvec2(LENGTH * i as f64 / 8.0 * 0.62, -0.9);
         ribbon.arrow(place, place + *direction * 0.3, VERMILION.line());
     }
-    hermite.points(&(0..=8).map(at).collect::<Vec<_>>(), Marker::Disc, INK.fill());
+    hermite.points(
+        &(0..=8).map(at).collect::<Vec<_>>(),
+        Marker::Disc,
+        INK.fill(),
+    );
     ribbon.segment(dvec2(0.0, -0.9), dvec2(LENGTH * 0.62, -0.9), GREY.line());
-    ribbon.polyline(&(0..=400).map(|i| sensors.point(LENGTH * f64::from(i) / 400.0)).collect::<Result<Vec<_>, _>>()?, GREEN.line().width(2.0));
+    ribbon.polyline(
+        &(0..=400)
+            .map(|i| sensors.point(LENGTH * f64::from(i) / 400.0))
+            .collect::<Result<Vec<_>, _>>()?,
+        GREEN.line().width(2.0),
+    );
     ribbon.points(sensors.points(), Marker::Dot, INK.fill());
-    let figure = Figure::grid(3, vec![hermite, dual, ribbon]);
+    let figure = Figure::grid(3, vec![hermite, dual, ribbon]).aspect(0.8);
     context.figure(
         "figure-problems",
         &figure,
@@ -126,45 +153,71 @@ fn draw_planar(context: &mut Context) -> Result<()> {
     let ribbon = planar(16, EndCondition::NotAKnot)?;
     let mut left = Plot::geometry("17 sensors");
     left.polyline(truth.points(), SKY.line().width(5.0).label("true curve"));
-    let trace: Vec<DVec2> = (0..=600).map(|i| ribbon.point(LENGTH * f64::from(i) / 600.0)).collect::<Result<_, _>>()?;
+    let trace: Vec<DVec2> = (0..=600)
+        .map(|i| ribbon.point(LENGTH * f64::from(i) / 600.0))
+        .collect::<Result<_, _>>()?;
     left.polyline(&trace, INK.line().label("reconstructed"));
-    left.points(ribbon.points(), Marker::Dot, VERMILION.fill().label("sensors"));
+    left.points(
+        ribbon.points(),
+        Marker::Dot,
+        VERMILION.fill().label("sensors"),
+    );
     let mut right = Plot::chart("its tangent angle", "arc length s", "angle α");
     right.graph(angle, 0.0, LENGTH, SKY.line().width(5.0));
     right.graph(|s| ribbon.angle(s), 0.0, LENGTH, INK.line());
     let s = places(16);
-    right.points(&s.iter().map(|s| dvec2(*s, angle(*s))).collect::<Vec<_>>(), Marker::Dot, VERMILION.fill());
-    let mut noisy = Plot::geometry("33 sensors, angles with σ = 0.5°");
+    right.points(
+        &s.iter().map(|s| dvec2(*s, angle(*s))).collect::<Vec<_>>(),
+        Marker::Dot,
+        VERMILION.fill(),
+    );
+    let mut noisy = Plot::geometry("33 sensors, angles with σ = 3°");
     let exact = planar(32, EndCondition::NotAKnot)?;
     let mut noise = Noise(context.seed());
     for _ in 0..context.pick(40, 12) {
         let s = places(32);
-        let angles: Vec<f64> = s.iter().map(|s| angle(*s) + SIGMA * noise.gaussian()).collect();
+        let angles: Vec<f64> = s
+            .iter()
+            .map(|s| angle(*s) + DRAWN_SIGMA * noise.gaussian())
+            .collect();
         let drawn = PlanarRibbon::new(&s, &angles, EndCondition::NotAKnot)?;
         noisy.polyline(drawn.points(), GREY.alpha(0.4).line());
     }
     noisy.polyline(exact.points(), BLUE.line().width(2.0));
-    let covariance = exact.covariance(SIGMA);
+    let covariance = exact.covariance(DRAWN_SIGMA);
     for i in [8, 16, 24, 32] {
-        noisy.polygon(&ellipse(exact.points()[i], covariance[i], 2.0), VERMILION.line());
+        noisy.polygon(
+            &ellipse(exact.points()[i], covariance[i], 2.0),
+            VERMILION.line(),
+        );
     }
     let end = exact.points()[32];
     noisy.text(end + dvec2(0.05, 0.0), "2σ", Side::Right);
-    let figure = Figure::grid(3, vec![left, right, noisy]);
+    let figure = Figure::grid(3, vec![left, right, noisy]).aspect(0.75);
     context.figure(
         "figure-planar",
         &figure,
         "A plane curve from its angles at 17 sensors (Figs 3.3, 3.5), and 33 noisy sensors with predicted 2σ ellipses.",
         "Left a curve covered by its reconstruction, middle the angle function, right a bundle of noisy curves with ellipses.",
     )?;
-    let worst = largest(ribbon.points().iter().enumerate().map(|(i, p)| p.distance(truth.points()[i * FINE / 16])));
+    let worst = largest(
+        ribbon
+            .points()
+            .iter()
+            .enumerate()
+            .map(|(i, p)| p.distance(truth.points()[i * FINE / 16])),
+    );
     context.number("max_position_error_17_sensors", worst, Target::AtMost(2e-3));
-    let predicted = trace2(covariance[32]).sqrt();
+    let predicted = trace2(exact.covariance(SIGMA)[32]).sqrt();
     let measured = simulated_sigma(&mut noise, &exact, context.pick(4000, 400))?;
     context.number("noise_position_sigma", predicted, Target::AtMost(0.02));
     // The standard deviation of a standard deviation from n draws is about 1 / sqrt(2 n), some more as the two
     // coordinates differ: four of them for 400.
-    context.number("noise_simulated_over_predicted", measured / predicted, Target::within(1.0, 0.2));
+    context.number(
+        "noise_simulated_over_predicted",
+        measured / predicted,
+        Target::within(1.0, 0.2),
+    );
     Ok(())
 }
 
@@ -177,7 +230,10 @@ fn simulated_sigma(noise: &mut Noise, exact: &PlanarRibbon, runs: usize) -> Resu
     let s = places(32);
     let mut sum = 0.0;
     for _ in 0..runs {
-        let angles: Vec<f64> = s.iter().map(|s| angle(*s) + SIGMA * noise.gaussian()).collect();
+        let angles: Vec<f64> = s
+            .iter()
+            .map(|s| angle(*s) + SIGMA * noise.gaussian())
+            .collect();
         let drawn = PlanarRibbon::new(&s, &angles, EndCondition::NotAKnot)?;
         sum += drawn.points()[32].distance_squared(exact.points()[32]);
     }
@@ -188,7 +244,11 @@ fn simulated_sigma(noise: &mut Noise, exact: &PlanarRibbon, runs: usize) -> Resu
 fn ellipse(centre: DVec2, covariance: DMat2, deviations: f64) -> Vec<DVec2> {
     // The Cholesky factor maps the unit circle to it.
     let a = covariance.x_axis.x.max(0.0).sqrt();
-    let b = if a > 0.0 { covariance.x_axis.y / a } else { 0.0 };
+    let b = if a > 0.0 {
+        covariance.x_axis.y / a
+    } else {
+        0.0
+    };
     let c = (covariance.y_axis.y - b * b).max(0.0).sqrt();
     (0..90)
         .map(|i| DVec2::from_angle(TAU * f64::from(i) / 90.0) * deviations)
@@ -201,33 +261,64 @@ fn draw_spatial(context: &mut Context) -> Result<()> {
     let truth = spatial(FINE, TangentMethod::Projected, EndCondition::NotAKnot)?;
     let projected = spatial(16, TangentMethod::Projected, EndCondition::NotAKnot)?;
     let sphere = spatial(16, TangentMethod::SphericalSpline, EndCondition::Natural)?;
-    let views: [(&str, fn(DVec3) -> DVec2); 2] =
-        [("from above", |p| dvec2(p.x, p.y)), ("from the side", |p| dvec2(p.x, p.z))];
+    let views: [(&str, fn(DVec3) -> DVec2); 2] = [
+        ("from above", |p| dvec2(p.x, p.y)),
+        ("from the side", |p| dvec2(p.x, p.z)),
+    ];
     let mut plots: Vec<Plot> = views
         .iter()
         .map(|(title, view)| {
             let mut plot = Plot::geometry(title);
             let flat = |points: &[DVec3]| points.iter().map(|p| view(*p)).collect::<Vec<_>>();
-            plot.polyline(&flat(truth.points()), SKY.line().width(5.0).label("true curve"));
+            plot.polyline(
+                &flat(truth.points()),
+                SKY.line().width(5.0).label("true curve"),
+            );
             let trace = |ribbon: &SpatialRibbon| -> Result<Vec<DVec3>> {
-                Ok((0..=400).map(|i| ribbon.point(LENGTH * f64::from(i) / 400.0)).collect::<Result<_, _>>()?)
+                Ok((0..=400)
+                    .map(|i| ribbon.point(LENGTH * f64::from(i) / 400.0))
+                    .collect::<Result<_, _>>()?)
             };
-            plot.polyline(&flat(&trace(&projected)?), INK.line().label("projected spline"));
-            plot.polyline(&flat(&trace(&sphere)?), ORANGE.line().dashed().label("spline on the sphere"));
+            plot.polyline(
+                &flat(&trace(&projected)?),
+                INK.line().label("projected spline"),
+            );
+            plot.polyline(
+                &flat(&trace(&sphere)?),
+                ORANGE.line().dashed().label("spline on the sphere"),
+            );
             plot.points(&flat(projected.points()), Marker::Dot, VERMILION.fill());
             Ok(plot)
         })
         .collect::<Result<_>>()?;
     let mut ball = Plot::geometry("tangents on the sphere");
     ball.circle(DVec2::ZERO, 1.0, GREY.line());
-    // Seen from the direction in which most of the curve lies on the near side.
-    let (right, up) = (DVec3::Y, DVec3::Z);
+    // Seen from above: all of the curve lies on the near side.
+    let (right, up) = (DVec3::X, DVec3::Y);
     let seen = |t: DVec3| dvec2(t.dot(right), t.dot(up));
-    ball.polyline(&(0..=400).map(|i| seen(tangent(LENGTH * f64::from(i) / 400.0))).collect::<Vec<_>>(), SKY.line().width(5.0));
-    ball.polyline(&(0..=400).map(|i| seen(projected.tangent(LENGTH * f64::from(i) / 400.0))).collect::<Vec<_>>(), INK.line());
-    ball.points(&projected.tangents().iter().map(|t| seen(*t)).collect::<Vec<_>>(), Marker::Dot, VERMILION.fill());
+    ball.polyline(
+        &(0..=400)
+            .map(|i| seen(tangent(LENGTH * f64::from(i) / 400.0)))
+            .collect::<Vec<_>>(),
+        SKY.line().width(5.0),
+    );
+    ball.polyline(
+        &(0..=400)
+            .map(|i| seen(projected.tangent(LENGTH * f64::from(i) / 400.0)))
+            .collect::<Vec<_>>(),
+        INK.line(),
+    );
+    ball.points(
+        &projected
+            .tangents()
+            .iter()
+            .map(|t| seen(*t))
+            .collect::<Vec<_>>(),
+        Marker::Dot,
+        VERMILION.fill(),
+    );
     plots.push(ball);
-    let figure = Figure::grid(3, plots);
+    let figure = Figure::grid(3, plots).aspect(0.75);
     context.figure(
         "figure-spatial",
         &figure,
@@ -236,7 +327,13 @@ fn draw_spatial(context: &mut Context) -> Result<()> {
     )?;
     let tube = Mesh::tube(truth.points(), 0.01, false);
     let beads = Mesh::tube(&projected.points().to_vec(), 0.02, false);
-    context.meshes("ribbon", &[Part::new("true", &tube, SKY), Part::new("sensors", &beads, VERMILION)])
+    context.meshes(
+        "ribbon",
+        &[
+            Part::new("true", &tube, SKY),
+            Part::new("sensors", &beads, VERMILION),
+        ],
+    )
 }
 
 /// The errors over the number of sensors.
@@ -246,26 +343,42 @@ fn draw_orders(context: &mut Context) -> Result<()> {
     let space = spatial(FINE, TangentMethod::Projected, EndCondition::NotAKnot)?;
     let planar_error = |n: usize, end| -> Result<f64> {
         let ribbon = planar(n, end)?;
-        Ok(largest((0..=n).map(|i| ribbon.points()[i].distance(plane.points()[i * FINE / n]))))
+        Ok(largest((0..=n).map(|i| {
+            ribbon.points()[i].distance(plane.points()[i * FINE / n])
+        })))
     };
     let spatial_error = |n: usize, method, end| -> Result<f64> {
         let ribbon = spatial(n, method, end)?;
-        Ok(largest((0..=n).map(|i| ribbon.points()[i].distance(space.points()[i * FINE / n]))))
+        Ok(largest((0..=n).map(|i| {
+            ribbon.points()[i].distance(space.points()[i * FINE / n])
+        })))
     };
-    let mut plot = Plot::chart("largest position error", "intervals between sensors", "error");
+    let mut plot = Plot::chart(
+        "largest position error",
+        "intervals between sensors",
+        "error",
+    );
     plot.log_x().log_y().legend(Corner::BottomLeft);
     let mut orders = Vec::new();
     let (natural, knot) = (EndCondition::Natural, EndCondition::NotAKnot);
     let series: [(&str, crate::color::Color, &dyn Fn(usize) -> Result<f64>); 5] = [
         ("plane, not-a-knot", BLUE, &|n| planar_error(n, knot)),
         ("plane, natural", SKY, &|n| planar_error(n, natural)),
-        ("space, projected, not-a-knot", VERMILION, &|n| spatial_error(n, TangentMethod::Projected, knot)),
-        ("space, projected, natural", ORANGE, &|n| spatial_error(n, TangentMethod::Projected, natural)),
-        ("space, on the sphere", GREEN, &|n| spatial_error(n, TangentMethod::SphericalSpline, natural)),
+        ("space, projected, not-a-knot", VERMILION, &|n| {
+            spatial_error(n, TangentMethod::Projected, knot)
+        }),
+        ("space, projected, natural", ORANGE, &|n| {
+            spatial_error(n, TangentMethod::Projected, natural)
+        }),
+        ("space, on the sphere", GREEN, &|n| {
+            spatial_error(n, TangentMethod::SphericalSpline, natural)
+        }),
     ];
     for (label, color, error) in series {
-        let points: Vec<DVec2> =
-            counts.iter().map(|n| Ok(dvec2(*n as f64, error(*n)?))).collect::<Result<_>>()?;
+        let points: Vec<DVec2> = counts
+            .iter()
+            .map(|n| Ok(dvec2(*n as f64, error(*n)?)))
+            .collect::<Result<_>>()?;
         plot.polyline(&points, color.line().label(label));
         plot.points(&points, Marker::Dot, color.fill());
         let [a, b] = [points[points.len() - 2], points[points.len() - 1]];
@@ -277,7 +390,8 @@ fn draw_orders(context: &mut Context) -> Result<()> {
         "The position error over the number of sensors: order 4 with not-a-knot ends, 3 with the natural ends of the thesis.",
         "Five falling straight lines in a doubly logarithmic chart, two steeper than the others.",
     )?;
-    let default_ends = planar_error(32, knot)?.max(spatial_error(32, TangentMethod::Projected, knot)?);
+    let default_ends =
+        planar_error(32, knot)?.max(spatial_error(32, TangentMethod::Projected, knot)?);
     context.number("max_position_error", default_ends, Target::AtMost(1e-4));
     context.number("order", orders[0].min(orders[2]), Target::AtLeast(3.7));
     context.number("orders", orders, Target::AtLeast(2.7));
@@ -287,15 +401,28 @@ fn draw_orders(context: &mut Context) -> Result<()> {
 /// The demonstrator's work: 32 alternating sensors, frame after frame.
 fn time_frames(context: &mut Context) -> Result<()> {
     let world = WorldFields::with_dip(1.08)?;
-    let kind = |i: usize| if i.is_multiple_of(2) { SensorKind::Accelerometer } else { SensorKind::Magnetometer };
-    let layout = RibbonLayout::new((0..32).map(|i| Sensor::new(LENGTH * i as f64 / 31.0, kind(i))), world)?;
+    let kind = |i: usize| {
+        if i.is_multiple_of(2) {
+            SensorKind::Accelerometer
+        } else {
+            SensorKind::Magnetometer
+        }
+    };
+    let layout = RibbonLayout::new(
+        (0..32).map(|i| Sensor::new(LENGTH * i as f64 / 31.0, kind(i))),
+        world,
+    )?;
     let readings: Vec<DVec3> = layout
         .sensors()
         .iter()
         .map(|sensor| {
             let x = tangent(sensor.s);
             let y = DVec3::Z.cross(x).normalize();
-            let field = if sensor.kind == SensorKind::Accelerometer { world.up() } else { world.magnetic() };
+            let field = if sensor.kind == SensorKind::Accelerometer {
+                world.up()
+            } else {
+                world.magnetic()
+            };
             DMat3::from_cols(x, y, x.cross(y)).transpose() * field
         })
         .collect();
@@ -310,14 +437,20 @@ fn time_frames(context: &mut Context) -> Result<()> {
         best = best.min(start.elapsed().as_secs_f64() * 1e6 / f64::from(frames / 5));
     }
     // The target is that of an optimised build; a development build and a busy machine get room.
-    context.number("frame_microseconds", best, Target::AtMost(if cfg!(debug_assertions) { 1000.0 } else { 50.0 }));
+    context.number(
+        "frame_microseconds",
+        best,
+        Target::AtMost(if cfg!(debug_assertions) { 1000.0 } else { 50.0 }),
+    );
     Ok(())
 }
 
 /// A ribbon from a file of readings.
 fn draw_readings(context: &mut Context, path: &Path, dip: f64) -> Result<()> {
-    let text = std::fs::read_to_string(path).or_bad_input(format!("--readings {}", path.display()))?;
-    let (sensors, readings) = parse(&text).or_bad_input(format!("--readings {}", path.display()))?;
+    let text =
+        std::fs::read_to_string(path).or_bad_input(format!("--readings {}", path.display()))?;
+    let (sensors, readings) =
+        parse(&text).or_bad_input(format!("--readings {}", path.display()))?;
     let reconstructed = || -> Result<_> {
         let layout = RibbonLayout::new(sensors, WorldFields::with_dip(dip.to_radians())?)?;
         let tangents = layout.tangents(&readings)?;
@@ -358,8 +491,16 @@ fn parse(text: &str) -> Result<(Vec<Sensor>, Vec<DVec3>)> {
         if line.trim().is_empty() || line.starts_with('#') || heading {
             continue;
         }
-        ensure!(cells.len() == 5, "line {number} has {} cells, not s,kind,x,y,z", cells.len());
-        let value = |k: usize| cells[k].parse::<f64>().with_context(|| format!("line {number}: {:?} is not a number", cells[k]));
+        ensure!(
+            cells.len() == 5,
+            "line {number} has {} cells, not s,kind,x,y,z",
+            cells.len()
+        );
+        let value = |k: usize| {
+            cells[k]
+                .parse::<f64>()
+                .with_context(|| format!("line {number}: {:?} is not a number", cells[k]))
+        };
         let kind = match cells[1] {
             "a" => SensorKind::Accelerometer,
             "m" => SensorKind::Magnetometer,
@@ -398,10 +539,14 @@ mod tests {
 
     #[test]
     fn readings_files_are_read_or_refused_with_the_line() {
-        let (sensors, readings) = parse("s,kind,x,y,z\n0,a,0,0,1\n\n# noise\n0.1,m,0,0.5,-0.8\n").unwrap();
+        let (sensors, readings) =
+            parse("s,kind,x,y,z\n0,a,0,0,1\n\n# noise\n0.1,m,0,0.5,-0.8\n").unwrap();
         assert_eq!((sensors.len(), readings[1]), (2, dvec3(0.0, 0.5, -0.8)));
         for bad in ["0,a,0,0,1\n1,b,0,0,1", "0,a,0,0", "0,a,0,0,1\n1,a,zero,0,1"] {
-            assert!(parse(bad).is_err_and(|error| error.to_string().contains("line")), "{bad}");
+            assert!(
+                parse(bad).is_err_and(|error| error.to_string().contains("line")),
+                "{bad}"
+            );
         }
     }
 }

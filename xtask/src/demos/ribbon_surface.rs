@@ -9,8 +9,8 @@ use anyhow::{Context as _, Result};
 use geodesic::{Mesh as Triangles, Straightest, shapes};
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use reconstruct::{
-    Curve, EndField, Freedom, GeodesicStrip, LocalCriterion, SampledCurve, ScalarFunction, StripChain, Surface,
-    TwoCurveSurface, geodesic_curvature,
+    Curve, EndField, Freedom, GeodesicStrip, LocalCriterion, SampledCurve, ScalarFunction,
+    StripChain, Surface, TwoCurveSurface, geodesic_curvature,
 };
 
 use crate::color::{BLUE, Color, GREEN, VERMILION};
@@ -34,17 +34,22 @@ pub(super) struct RibbonSurface {
 impl Demo for RibbonSurface {
     const NAME: &'static str = "ribbon-surface";
     const PAPER: &'static str = "ph-geodesic-variation-wavefront, Figs 3.10 to 3.15";
-    const ABOUT: &'static str = "Five geodesics traced on a model, and the surface of four strips through them";
+    const ABOUT: &'static str =
+        "Five geodesics traced on a model, and the surface of four strips through them";
 
     fn run(&self, context: &mut Context) -> Result<()> {
         let cells = self.cells.unwrap_or(context.pick(160, 60));
         let mesh = model_mesh(cells)?;
         let traces = trace_geodesics(&mesh, cells)?;
         let spans = usize::from(self.spans);
-        let fits: Vec<SampledCurve> =
-            traces.iter().map(|trace| SampledCurve::fit(trace, spans)).collect::<Result<_, _>>()?;
-        let strips: Vec<GeodesicStrip> =
-            fits.iter().map(|fit| GeodesicStrip::new(fit.clone())).collect::<Result<_, _>>()?;
+        let fits: Vec<SampledCurve> = traces
+            .iter()
+            .map(|trace| SampledCurve::fit(trace, spans))
+            .collect::<Result<_, _>>()?;
+        let strips: Vec<GeodesicStrip> = fits
+            .iter()
+            .map(|fit| GeodesicStrip::new(fit.clone()))
+            .collect::<Result<_, _>>()?;
         let chain = StripChain::new(strips.clone(), &[1.0; 4])?;
         measure(context, &fits, &chain, spans)?;
         draw_strips(context, &mesh, &fits, &chain)?;
@@ -69,7 +74,9 @@ fn lift(p: DVec2) -> DVec3 {
 
 fn model_mesh(cells: u32) -> Result<Triangles> {
     let scale = 2.6 / f64::from(cells);
-    Ok(shapes::sheet(cells, cells, |p| lift(p * scale - DVec2::splat(1.3)))?)
+    Ok(shapes::sheet(cells, cells, |p| {
+        lift(p * scale - DVec2::splat(1.3))
+    })?)
 }
 
 /// Five geodesics that start on the line x = -1.2, each straight ahead, traced with the model's normals.
@@ -98,8 +105,10 @@ fn trace_geodesics(mesh: &Triangles, cells: u32) -> Result<Vec<Vec<DVec3>>> {
                 [1.0 - inside.x, inside.x - inside.y, inside.y]
             };
             let from = mesh.face_point(face, barycentric)?;
-            let slope = gradient(start).dot(heading);
-            let trace = tracer.trace(from, face, heading.extend(slope), 2.5)?;
+            let direction = heading.extend(gradient(start).dot(heading));
+            // A start on an edge leaves through the face that the direction leads into.
+            let face = tracer.face_towards(from, direction).unwrap_or(face);
+            let trace = tracer.trace(from, face, direction, 2.5)?;
             Ok(thinned(&trace.positions))
         })
         .collect()
@@ -109,14 +118,22 @@ fn trace_geodesics(mesh: &Triangles, cells: u32) -> Result<Vec<Vec<DVec3>>> {
 fn thinned(points: &[DVec3]) -> Vec<DVec3> {
     let mut kept: Vec<DVec3> = Vec::with_capacity(points.len());
     for point in points {
-        if kept.last().is_none_or(|last: &DVec3| last.distance(*point) > 1e-4) {
+        if kept
+            .last()
+            .is_none_or(|last: &DVec3| last.distance(*point) > 1e-4)
+        {
             kept.push(*point);
         }
     }
     kept
 }
 
-fn measure(context: &mut Context, fits: &[SampledCurve], chain: &StripChain, spans: usize) -> Result<()> {
+fn measure(
+    context: &mut Context,
+    fits: &[SampledCurve],
+    chain: &StripChain,
+    spans: usize,
+) -> Result<()> {
     let mut curvature: f64 = 0.0;
     let mut error: f64 = 0.0;
     for surface in chain.surfaces() {
@@ -133,9 +150,17 @@ fn measure(context: &mut Context, fits: &[SampledCurve], chain: &StripChain, spa
             }
         }
     }
-    context.number("boundary_geodesic_curvature_max", curvature, Target::AtMost(1e-8));
+    context.number(
+        "boundary_geodesic_curvature_max",
+        curvature,
+        Target::AtMost(1e-8),
+    );
     context.number("surface_max_error", error, Target::AtMost(1e-2));
-    context.number("strip_joint_max_angle_rad", chain.joint_angle(60), Target::AtMost(1e-10));
+    context.number(
+        "strip_joint_max_angle_rad",
+        chain.joint_angle(60),
+        Target::AtMost(1e-10),
+    );
     let residual = fits.iter().map(SampledCurve::residual).fold(0.0, f64::max);
     context.number("curve_fit_residual", residual, Target::AtMost(1e-3));
     // The same curves with their binormals smoothed once more, as for noisy data: then the curves are nearly geodesics.
@@ -145,7 +170,11 @@ fn measure(context: &mut Context, fits: &[SampledCurve], chain: &StripChain, spa
         let worst = (0..=60).map(|i| strip.geodesic_curvature(f64::from(i) / 60.0).abs());
         smoothed = worst.fold(smoothed, f64::max);
     }
-    context.number("geodesic_curvature_smoothed_binormals", smoothed, Target::AtMost(0.2));
+    context.number(
+        "geodesic_curvature_smoothed_binormals",
+        smoothed,
+        Target::AtMost(0.2),
+    );
     Ok(())
 }
 
@@ -156,15 +185,24 @@ fn distance_to_model(p: DVec3) -> f64 {
 }
 
 fn surface_mesh(surface: &impl Surface, steps: usize) -> Mesh {
-    Mesh::grid(steps, steps, |u, v| (surface.point(u, v), surface.normal(u, v)))
+    Mesh::grid(steps, steps, |u, v| {
+        (surface.point(u, v), surface.normal(u, v))
+    })
 }
 
 fn tube(curve: &impl Curve, radius: f64, offset: DVec3) -> Mesh {
-    let points: Vec<DVec3> = (0..=120).map(|i| curve.point(f64::from(i) / 120.0) + offset).collect();
+    let points: Vec<DVec3> = (0..=120)
+        .map(|i| curve.point(f64::from(i) / 120.0) + offset)
+        .collect();
     Mesh::tube(&points, radius, false)
 }
 
-fn draw_strips(context: &mut Context, model: &Triangles, fits: &[SampledCurve], chain: &StripChain) -> Result<()> {
+fn draw_strips(
+    context: &mut Context,
+    model: &Triangles,
+    fits: &[SampledCurve],
+    chain: &StripChain,
+) -> Result<()> {
     let steps = context.pick(100, 30);
     let positions = model.positions().to_vec();
     let normals = positions
@@ -179,12 +217,18 @@ fn draw_strips(context: &mut Context, model: &Triangles, fits: &[SampledCurve], 
     let mut scene = Scene::new();
     scene.add(clay, Material::matte(Color::hex(0xd8cfc0)))?;
     for fit in fits {
-        scene.add(tube(fit, 0.014, DVec3::Z * 0.004), Material::matte(VERMILION))?;
+        scene.add(
+            tube(fit, 0.014, DVec3::Z * 0.004),
+            Material::matte(VERMILION),
+        )?;
         scene.add(tube(fit, 0.010, aside), Material::matte(VERMILION))?;
     }
     let shift = glam::DAffine3::from_translation(aside);
     for surface in chain.surfaces() {
-        scene.add(surface_mesh(surface, steps).transformed(shift), Material::zebra())?;
+        scene.add(
+            surface_mesh(surface, steps).transformed(shift),
+            Material::zebra(),
+        )?;
     }
     scene.ground_below();
     let camera = scene.camera(dvec3(0.1, -1.0, 0.9), context.aspect());
@@ -195,26 +239,41 @@ fn draw_strips(context: &mut Context, model: &Triangles, fits: &[SampledCurve], 
         "Left a model with five geodesics traced on its mesh (Fig. 3.13), right the surface of four strips through them (Fig. 3.14).",
         "A clay-coloured dome with five red lines beside a striped dome with the same lines.",
     )?;
-    let meshes: Vec<Mesh> = chain.surfaces().iter().map(|s| surface_mesh(s, context.pick(40, 16))).collect();
+    let meshes: Vec<Mesh> = chain
+        .surfaces()
+        .iter()
+        .map(|s| surface_mesh(s, context.pick(40, 16)))
+        .collect();
     let names = ["S12", "S23", "S34", "S45"];
-    let parts: Vec<Part<'_>> =
-        names.iter().zip(&meshes).enumerate().map(|(k, (name, mesh))| Part::new(name, mesh, Color::cycle(k))).collect();
+    let parts: Vec<Part<'_>> = names
+        .iter()
+        .zip(&meshes)
+        .enumerate()
+        .map(|(k, (name, mesh))| Part::new(name, mesh, Color::cycle(k)))
+        .collect();
     context.meshes("strips", &parts)
 }
 
 /// Figs 3.10 to 3.12: the influence of the lengths and of the angles, and the criteria.
 fn draw_free_functions(context: &mut Context, strips: [GeodesicStrip; 2]) -> Result<()> {
     let base = TwoCurveSurface::new(strips.clone())?;
-    let field = |length: f64, angle: ScalarFunction| EndField::Polar { angle, length: length.into() };
+    let field = |length: f64, angle: ScalarFunction| EndField::Polar {
+        angle,
+        length: length.into(),
+    };
     let variants = [
-        base.clone().with_fields([field(0.7, 0.0.into()), field(0.7, 0.0.into())]),
-        base.clone().with_fields([field(2.6, 0.0.into()), field(0.7, 0.0.into())]),
+        base.clone()
+            .with_fields([field(0.7, 0.0.into()), field(0.7, 0.0.into())]),
+        base.clone()
+            .with_fields([field(2.6, 0.0.into()), field(0.7, 0.0.into())]),
         base.clone().with_fields([
             field(1.2, ScalarFunction::formula(|u| (u - 0.5) * 2.0)),
             field(1.2, ScalarFunction::formula(|u| (-u + 0.5) * 2.0)),
         ]),
-        base.clone().smoothed(LocalCriterion::Bending, Freedom::Lengths)?,
-        base.clone().smoothed(LocalCriterion::SpeedVariation, Freedom::Vectors)?,
+        base.clone()
+            .smoothed(LocalCriterion::Bending, Freedom::Lengths)?,
+        base.clone()
+            .smoothed(LocalCriterion::SpeedVariation, Freedom::Vectors)?,
         base.smoothed_globally(6)?,
     ];
     let steps = context.pick(80, 24);
@@ -222,10 +281,18 @@ fn draw_free_functions(context: &mut Context, strips: [GeodesicStrip; 2]) -> Res
     for (k, surface) in variants.iter().enumerate() {
         let offset = dvec3(2.9 * (k % 3) as f64, -1.7 * (k / 3) as f64, 0.0);
         let shift = glam::DAffine3::from_translation(offset);
-        scene.add(surface_mesh(surface, steps).transformed(shift), Material::zebra())?;
+        scene.add(
+            surface_mesh(surface, steps).transformed(shift),
+            Material::zebra(),
+        )?;
         for strip in surface.strips() {
-            let points: Vec<DVec3> = (0..=120).map(|i| strip.curve().point(f64::from(i) / 120.0) + offset).collect();
-            scene.add(Mesh::tube(&points, 0.014, false), Material::matte(VERMILION))?;
+            let points: Vec<DVec3> = (0..=120)
+                .map(|i| strip.curve().point(f64::from(i) / 120.0) + offset)
+                .collect();
+            scene.add(
+                Mesh::tube(&points, 0.014, false),
+                Material::matte(VERMILION),
+            )?;
         }
     }
     scene.ground_below();
@@ -237,16 +304,27 @@ fn draw_free_functions(context: &mut Context, strips: [GeodesicStrip; 2]) -> Res
         "Two geodesics, six surfaces: equal and unequal lengths, turned angles (Figs 3.10, 3.11); least bending, least speed variation, global thin plate (Fig. 3.12).",
         "Two rows of three striped strips of surface, each between the same two red curves.",
     )?;
-    let energies: Vec<f64> = variants.iter().map(TwoCurveSurface::thin_plate_energy).collect();
+    let energies: Vec<f64> = variants
+        .iter()
+        .map(TwoCurveSurface::thin_plate_energy)
+        .collect();
     let least = energies.iter().copied().fold(f64::INFINITY, f64::min);
     let global = energies.last().copied().context("six variants")?;
-    context.number("global_criterion_is_least", u8::from(global <= least), Target::exactly(1));
+    context.number(
+        "global_criterion_is_least",
+        u8::from(global <= least),
+        Target::exactly(1),
+    );
     Ok(())
 }
 
 /// Where the reconstruction leaves the model.
 fn draw_error(context: &mut Context, chain: &StripChain) -> Result<()> {
-    let mut plot = Plot::chart("distance to the model", "across the five curves", "distance");
+    let mut plot = Plot::chart(
+        "distance to the model",
+        "across the five curves",
+        "distance",
+    );
     plot.log_y();
     for (u, color) in [(0.25, BLUE), (0.5, GREEN), (0.75, VERMILION)] {
         let points: Vec<DVec2> = (0..=200)
