@@ -11,9 +11,9 @@ use anyhow::{Result, ensure};
 use bezier_mass::{BezierCurve, BezierPatch};
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use reconstruct::{
-    AnalyticCurve, BezierStrip, CornerData, Corners, Criterion, Curvatures, Curve, Degree7Shape,
-    Error, FrenetFrame, GeodesicStrip, Rectangle, Series, Surface, Triangle, TrianglePatch,
-    boundary_geodesic_curvature, degree7_boundaries, rational_quintic_boundaries,
+    AnalyticCurve, BezierStrip, CoonsPatch, CornerData, Corners, Criterion, Curvatures, Curve,
+    Degree7Shape, Error, FrenetFrame, GeodesicStrip, Rectangle, Series, Surface, Triangle,
+    TrianglePatch, boundary_geodesic_curvature, degree7_boundaries, rational_quintic_boundaries,
     tessellate_triangle,
 };
 
@@ -49,22 +49,16 @@ impl Demo for GeodesicPatch {
     fn run(&self, context: &mut Context) -> Result<()> {
         let corners = corners(self.bend)?;
         let curves = degree7_boundaries(&corners, &Degree7Shape::default())?;
-        let rectangle = Rectangle::new(strips(&curves)?)?;
+        // The criteria are those of Section 3.6, with frames; the Bézier patches are those of Section 3.7.
+        let frames = Rectangle::new(frame_strips(&curves)?)?;
         let mut worst = Worst {
             curvature: 0.0,
-            c3: rectangle.report().c3_residual,
+            c3: frames.report().c3_residual,
         };
-        let patches = criteria(context, &rectangle, &mut worst)?;
-        let degree7 = patches[2].clone();
-
+        let patches = criteria(context, &frames, &mut worst)?;
+        let degree7 = bezier_patch(&curves, &mut worst)?;
         let quintics = rational_quintic_boundaries(&corners)?;
-        let rational = Rectangle::new(strips(&quintics)?)?;
-        worst.c3 = worst.c3.max(rational.report().c3_residual);
-        let rational = rational
-            .smoothest(Criterion::ThinPlate)?
-            .patch
-            .to_bezier()?;
-        worst.see(&rational);
+        let rational = bezier_patch(&quintics, &mut worst)?;
         let error = corner_error(&corners, &curves)?.max(corner_error(&corners, &quintics)?);
         context.number("corner_data_error", error, Target::AtMost(1e-10));
 
@@ -89,7 +83,15 @@ impl Demo for GeodesicPatch {
         );
         context.number("c3_max_residual", worst.c3, Target::AtMost(1e-8));
         bad_sets(context, &corners, &curves)?;
-        draw(context, &patches, &curves, &rational, &quintics, &filled)?;
+        let drawn = Drawn {
+            patches: &patches,
+            degree7: &degree7,
+            curves: &curves,
+            rational: &rational,
+            quintics: &quintics,
+            triangle: &filled,
+        };
+        draw(context, &drawn)?;
         export(context, &degree7, &rational, &filled)
     }
 }
@@ -156,21 +158,40 @@ fn strips(curves: &[BezierCurve<DVec3>; 4]) -> Result<[BezierStrip; 4], Error> {
     Ok([a?, b?, c?, d?])
 }
 
-/// Fig. 3.20: the same boundary under the three criteria, as exact Bézier patches.
+fn frame_strips(curves: &[BezierCurve<DVec3>; 4]) -> Result<[GeodesicStrip; 4], Error> {
+    let [a, b, c, d] = curves.clone().map(GeodesicStrip::new);
+    Ok([a?, b?, c?, d?])
+}
+
+/// The exact patch on Bézier boundaries: of least thin-plate energy where that is regular at the boundary, otherwise
+/// with the twists that always are.
+fn bezier_patch(curves: &[BezierCurve<DVec3>; 4], worst: &mut Worst) -> Result<BezierPatch<DVec3>> {
+    let rectangle = Rectangle::new(strips(curves)?)?;
+    worst.c3 = worst.c3.max(rectangle.report().c3_residual);
+    let patch = match rectangle.smoothest(Criterion::ThinPlate) {
+        Ok(smoothed) => smoothed.patch,
+        Err(Error::IrregularBoundary { .. }) => rectangle.patch(rectangle.regular_twists())?,
+        Err(error) => return Err(error.into()),
+    };
+    let bezier = patch.to_bezier()?;
+    worst.see(&patch);
+    worst.see(&bezier);
+    Ok(bezier)
+}
+
+/// Fig. 3.20: the same boundary under the three criteria.
 fn criteria(
     context: &mut Context,
-    rectangle: &Rectangle<BezierStrip>,
+    rectangle: &Rectangle<GeodesicStrip>,
     worst: &mut Worst,
-) -> Result<Vec<BezierPatch<DVec3>>> {
+) -> Result<Vec<CoonsPatch>> {
     let mut table = Vec::new();
     let mut patches = Vec::new();
     for (criterion, _) in CRITERIA {
         let patch = rectangle.smoothest(criterion)?.patch;
         table.push(CRITERIA.map(|(measure, _)| patch.energy(measure)));
-        let bezier = patch.to_bezier()?;
         worst.see(&patch);
-        worst.see(&bezier);
-        patches.push(bezier);
+        patches.push(patch);
     }
     let own = (0..3)
         .filter(|c| (0..3).all(|row| table[*c][*c] <= table[row][*c] * (1.0 + 1e-12)))
@@ -331,14 +352,25 @@ fn with_curvature(mesh: Mesh, surface: &impl Surface, steps: usize) -> (Mesh, f6
     (mesh.with_scalar(values), bound)
 }
 
-fn draw(
-    context: &mut Context,
-    patches: &[BezierPatch<DVec3>],
-    curves: &[BezierCurve<DVec3>; 4],
-    rational: &BezierPatch<DVec3>,
-    quintics: &[BezierCurve<DVec3>; 4],
-    triangle: &TrianglePatch,
-) -> Result<()> {
+/// What the pictures show.
+struct Drawn<'a> {
+    patches: &'a [CoonsPatch],
+    degree7: &'a BezierPatch<DVec3>,
+    curves: &'a [BezierCurve<DVec3>; 4],
+    rational: &'a BezierPatch<DVec3>,
+    quintics: &'a [BezierCurve<DVec3>; 4],
+    triangle: &'a TrianglePatch,
+}
+
+fn draw(context: &mut Context, drawn: &Drawn<'_>) -> Result<()> {
+    let Drawn {
+        patches,
+        degree7,
+        curves,
+        rational,
+        quintics,
+        triangle,
+    } = *drawn;
     let steps = context.pick(160, 40);
     let apart = |mesh: Mesh, k: usize| {
         mesh.transformed(glam::DAffine3::from_translation(DVec3::X * 4.0 * k as f64))
@@ -360,7 +392,7 @@ fn draw(
 
     let mut built = Scene::new();
     built.add(
-        patch_mesh(&patches[2], steps),
+        patch_mesh(degree7, steps),
         Material::glossy(Color::hex(0x7fb2d9)),
     )?;
     built.add(boundary_tubes(curves), Material::matte(VERMILION))?;

@@ -341,7 +341,7 @@ fn draw_error(context: &mut Context, chain: &StripChain) -> Result<()> {
         "figure-error",
         &Figure::new(plot),
         "The distance of the reconstructed surface from the model, along three lines across the five geodesics.",
-        "Three curves with arcs between the whole numbers 1 to 5, where they dip.",
+        "Three curves of the distance over the strips 1 to 5, some thousandths at most, with dips where it changes its sign.",
     )?;
     Ok(())
 }
