@@ -451,7 +451,8 @@ const LEGS: [[f64; 2]; 6] = [
 
 /// Four rational quintic boundaries with the given corner data: points, tangent planes, osculating planes and
 /// curvatures at the corners. Control points are laid out in the osculating planes so that the curvatures are met
-/// with unit weights; the torsions are split at each corner so that their signs fit, and the weights follow.
+/// with unit weights. The inner ones are slid along the end tangents to where unit weights give the torsions too, if
+/// that is not far away; otherwise the torsions are split at each corner so that their signs fit. The weights follow.
 ///
 /// # Errors
 /// [`Error::CornerData`] for two corners at one point; [`Error::TorsionSign`] when at some corner neither any
@@ -463,8 +464,11 @@ pub fn rational_quintic_boundaries(corners: &Corners) -> Result<[BezierCurve<DVe
         natural: 0.0,
     };
     let mut best: Option<(f64, [BezierCurve<DVec3>; 4])> = None;
-    for legs in LEGS {
-        match quintic_layout(corners, legs) {
+    for (legs, slide) in LEGS
+        .into_iter()
+        .flat_map(|legs| [(legs, true), (legs, false)])
+    {
+        match quintic_layout(corners, legs, slide) {
             Ok((effort, curves)) => {
                 if best.as_ref().is_none_or(|(least, _)| effort < *least) {
                     best = Some((effort, curves));
@@ -481,6 +485,7 @@ pub fn rational_quintic_boundaries(corners: &Corners) -> Result<[BezierCurve<DVe
 fn quintic_layout(
     corners: &Corners,
     legs: [f64; 2],
+    slide: bool,
 ) -> Result<(f64, [BezierCurve<DVec3>; 4]), Error> {
     let mut points = Vec::with_capacity(4);
     let mut natural = Vec::with_capacity(4);
@@ -494,7 +499,7 @@ fn quintic_layout(
                 value: chord,
             });
         }
-        let control = quintic_control(&ends, chord, legs);
+        let control = quintic_control(&ends, chord, legs, slide);
         natural.push(quintic_end_invariants(&control, &[1.0; 6])?);
         points.push(control);
     }
@@ -514,6 +519,14 @@ fn quintic_layout(
     for (control, wanted) in points.iter().zip(wanted) {
         let weights = quintic_weights(control, wanted)?;
         effort = weights.iter().fold(effort, |m, w| m.max(w.ln().abs()));
+        if let Some(&value) = weights.iter().find(|w| w.ln().abs() > EXTREME_WEIGHT.ln()) {
+            let range = [1.0 / EXTREME_WEIGHT, EXTREME_WEIGHT];
+            return Err(Error::OutOfRange {
+                what: "weight",
+                value,
+                range,
+            });
+        }
         let control = control
             .iter()
             .zip(weights)
@@ -524,20 +537,50 @@ fn quintic_layout(
     Ok((effort, four(curves)?))
 }
 
+/// Weights beyond this, or below its reciprocal, pull a curve into its control points and cost the digits that the
+/// conditions need.
+const EXTREME_WEIGHT: f64 = 1e3;
+/// How far along the end tangents an inner control point may be slid, in parts of the chord.
+const SLIDE: f64 = 0.8;
+
 /// `p1` on the tangent, `p2` in the osculating plane on the side of the principal normal at the height that gives
-/// the curvature with unit weights, `k = (4/5) h / a²`; the same at the other end.
-fn quintic_control(ends: &[CurveEnd; 2], chord: f64, [leg, next]: [f64; 2]) -> [DVec3; 6] {
+/// the curvature with unit weights, `k = (4/5) h / a²`; the same at the other end. With `slide` the inner points move
+/// along the tangents to where unit weights give the torsions as well, `tau = (3/5) c / (a h)`: the torsion at one end
+/// depends on how far the inner point of the other lies from its osculating plane.
+fn quintic_control(
+    ends: &[CurveEnd; 2],
+    chord: f64,
+    [leg, next]: [f64; 2],
+    slide: bool,
+) -> [DVec3; 6] {
     let a = leg * chord;
-    let inner = |end: &CurveEnd, forward: f64| {
-        let first = end.point + end.tangent * (forward * a);
-        let height = end.normal * (1.25 * end.curvature * a * a);
-        (
-            first,
-            first + end.tangent * (forward * next * chord) + height,
-        )
-    };
-    let ((p1, p2), (p4, p3)) = (inner(&ends[0], 1.0), inner(&ends[1], -1.0));
-    [ends[0].point, p1, p2, p3, p4, ends[1].point]
+    let forward = [1.0, -1.0];
+    let height = |end: &CurveEnd| end.normal * (1.25 * end.curvature * a * a);
+    let outer: [DVec3; 2] = from_fn(|k| ends[k].point + ends[k].tangent * (forward[k] * a));
+    let inner: [DVec3; 2] = from_fn(|k| {
+        let (mine, other) = (&ends[k], &ends[1 - k]);
+        let base = outer[k] + height(mine);
+        // The binormal of the other end as seen along its own way into the curve.
+        let principal = other.normal * other.curvature.signum();
+        let binormal = (other.tangent * forward[1 - k]).cross(principal);
+        let wanted = other.torsion * a * height(other).length() / 0.6;
+        let needed = (wanted - (base - other.point).dot(binormal)) / mine.tangent.dot(binormal);
+        let slid = slide && needed.abs() <= SLIDE * chord;
+        base + mine.tangent
+            * if slid {
+                needed
+            } else {
+                forward[k] * next * chord
+            }
+    });
+    [
+        ends[0].point,
+        outer[0],
+        inner[0],
+        inner[1],
+        outer[1],
+        ends[1].point,
+    ]
 }
 
 /// Torsions with the wanted sum, each of the sign that its control points give.
