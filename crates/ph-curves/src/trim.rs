@@ -353,7 +353,7 @@ fn crossings(stretches: &[Stretch<'_>], own: usize, closed: bool) -> Vec<Crossin
 fn cannot_meet(first: &Stretch<'_>, second: &Stretch<'_>, around: Option<(f64, usize)>) -> bool {
     let half_turn = std::f64::consts::PI;
     let between = second.turned[1] - first.turned[0];
-    if first.run == second.run && between < half_turn {
+    if (first.run == second.run && between < half_turn) || smooth_neighbours(first, second) {
         return true;
     }
     if second.run == first.run + 1 && second.after_cusp && between < half_turn {
@@ -365,6 +365,21 @@ fn cannot_meet(first: &Stretch<'_>, second: &Stretch<'_>, around: Option<(f64, u
             && second.run == run
             && total - second.turned[0] + first.turned[1] < half_turn
     })
+}
+
+/// Whether one stretch goes on smoothly where the other ends, in either sense of travel, and both turn by less than pi
+/// together: as where the half circle around an end meets the offset of the other side.
+fn smooth_neighbours(first: &Stretch<'_>, second: &Stretch<'_>) -> bool {
+    let turning = first.turned[1] - first.turned[0] + second.turned[1] - second.turned[0];
+    let size = first.size() + second.size();
+    turning < std::f64::consts::PI
+        && [(0, 0), (0, 1), (1, 0), (1, 1)].iter().any(|&(i, j)| {
+            let onwards = if i == j { -1.0 } else { 1.0 };
+            let (a, b) = (first.tangents[i], second.tangents[j] * onwards);
+            (first.ends[i] - second.ends[j]).length() <= COMMON_END * size
+                && a.dot(b) > 0.0
+                && a.perp_dot(b).abs() <= COMMON_END
+        })
 }
 
 /// If the end of a closed spline goes on in its start: the total turning and the last run.
