@@ -264,7 +264,7 @@ proptest! {
     #[test]
     fn curves_off_the_quadric_are_refused(arc in arc(), error in 1e-6..1e-2_f64, which in 0..3_usize) {
         let mut control = *arc.control();
-        control[which] = control[which] + MassPoint::vector(LorentzVector::new(error, DVec3::splat(error), error));
+        control[which] += MassPoint::vector(LorentzVector::new(error, DVec3::splat(error), error));
         prop_assert!(CanalCurve::new(control).is_err());
     }
 }
