@@ -1,5 +1,6 @@
 //! Queries for locally shortest paths.
 
+use crate::loops::strip_along;
 use crate::mesh::Mesh;
 use crate::path::GeodesicPath;
 use crate::pivot::Shortener;
@@ -99,6 +100,67 @@ impl<'m> PathFinder<'m> {
         let (from, to) = (self.mesh.canonical(from)?, self.mesh.canonical(to)?);
         self.search(from, to)?;
         self.shorten(from, to)
+    }
+
+    /// The stages of [`PathFinder::shortest`]: the taut path in the initial sequence of faces, and the path after each
+    /// update, the last one being the answer.
+    ///
+    /// # Errors
+    ///
+    /// As for [`PathFinder::shortest`].
+    pub fn stages(
+        &mut self,
+        from: SurfacePoint,
+        to: SurfacePoint,
+    ) -> Result<Vec<GeodesicPath>, Error> {
+        let (from, to) = (self.mesh.canonical(from)?, self.mesh.canonical(to)?);
+        self.search(from, to)?;
+        let mesh = self.mesh;
+        let mut stages: Vec<GeodesicPath> = Vec::new();
+        self.shorten_observed(from, to, |shortener, strip| {
+            let mut path = GeodesicPath::default();
+            path.set(mesh, shortener, strip);
+            stages.push(path);
+        })?;
+        for (k, stage) in stages.iter_mut().enumerate() {
+            stage.updates.extend_from_slice(&self.path.updates[..k]);
+        }
+        Ok(stages)
+    }
+
+    /// The locally shortest path that shortening reaches from a caller's polyline on the mesh: a guide that says on
+    /// which side of the vertices the path should pass. It begins at the first point and ends at the last; points that do
+    /// not share a face with the next one are joined to it by a locally shortest path.
+    ///
+    /// # Errors
+    ///
+    /// As for [`PathFinder::shortest`]; [`Error::ShortLoop`] for fewer than two points.
+    pub fn guided(&mut self, points: &[SurfacePoint]) -> Result<&GeodesicPath, Error> {
+        let corners: Vec<SurfacePoint> = points
+            .iter()
+            .map(|&p| self.mesh.canonical(p))
+            .collect::<Result<_, _>>()?;
+        let [from, .., to] = corners[..] else {
+            return Err(Error::ShortLoop {
+                points: corners.len(),
+            });
+        };
+        let (mut joined, mut faces) = (vec![from], Vec::new());
+        for ends in corners.windows(2).filter(|ends| ends[0] != ends[1]) {
+            let path = self.shortest(ends[0], ends[1])?;
+            joined.extend_from_slice(&path.points[1..]);
+            faces.extend_from_slice(&path.faces);
+        }
+        if faces.is_empty() {
+            return self.shortest(from, to);
+        }
+        strip_along(self.mesh, &joined, &faces, &mut self.shortener.strip);
+        // The guide chooses the class; it is not given up for a neighbouring one.
+        let neighbours = std::mem::replace(&mut self.neighbours, false);
+        let done = self.shorten(from, to).map(drop);
+        self.neighbours = neighbours;
+        done?;
+        Ok(&self.path)
     }
 
     /// The locally shortest path that shortening reaches from a caller's sequence of neighbouring faces.
@@ -207,6 +269,18 @@ impl<'m> PathFinder<'m> {
 
     /// Shortens what lies in the strip.
     fn shorten(&mut self, from: SurfacePoint, to: SurfacePoint) -> Result<&GeodesicPath, Error> {
+        self.shorten_observed(from, to, |_, _| {})?;
+        self.path.set(self.mesh, &self.shortener, &mut self.strip);
+        Ok(&self.path)
+    }
+
+    /// Shortens what lies in the strip; `observe` sees the taut path at the start and every update.
+    fn shorten_observed(
+        &mut self,
+        from: SurfacePoint,
+        to: SurfacePoint,
+        mut observe: impl FnMut(&Shortener, &mut Strip),
+    ) -> Result<(), Error> {
         let Self {
             mesh,
             shortener,
@@ -218,25 +292,24 @@ impl<'m> PathFinder<'m> {
         shortener.strip.trim(mesh, from, to);
         shortener.begin(mesh, from, to);
         path.updates.clear();
+        observe(shortener, strip);
         // A path has a few updates for each vertex on it; a mesh is crossed by about the root of its number of faces.
         let limit = 20 * mesh.face_count() + 100;
         loop {
-            if !shortener.shorten(mesh, limit, |_, update| path.updates.push(update)) {
+            let finished = shortener.shorten(mesh, limit, |shortener, update| {
+                path.updates.push(update);
+                observe(shortener, strip);
+            });
+            if !finished {
                 return Err(Error::NotConverged {
                     updates: shortener.updates,
                 });
             }
-            let hop = if *neighbours {
-                shortener.hop(mesh)
-            } else {
-                None
+            let Some(update) = neighbours.then(|| shortener.hop(mesh)).flatten() else {
+                return Ok(());
             };
-            match hop {
-                Some(update) => path.updates.push(update),
-                None => break,
-            }
+            path.updates.push(update);
+            observe(shortener, strip);
         }
-        path.set(mesh, shortener, strip);
-        Ok(path)
     }
 }

@@ -17,6 +17,7 @@ mod straightest;
 mod strip;
 mod surface_point;
 mod torus;
+mod unfold;
 
 #[cfg(feature = "closest-point")]
 pub use closest::{Closest, ClosestPoint};
@@ -37,3 +38,4 @@ pub use straightest::{AtBoundary, Stop, Straightest, Trace};
 pub use strip::Side;
 pub use surface_point::{OUTSIDE, SNAP, SurfacePoint};
 pub use torus::TorusClasses;
+pub use unfold::Unfolding;

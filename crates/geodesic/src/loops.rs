@@ -555,7 +555,7 @@ fn cycle_of(mesh: &Mesh, points: &[SurfacePoint], faces: &[u32]) -> Vec<u32> {
 }
 
 /// The strip of faces along a polyline: over each edge that it crosses, and about each vertex on the side of fewer faces.
-fn strip_along(mesh: &Mesh, points: &[SurfacePoint], faces: &[u32], strip: &mut Strip) {
+pub(crate) fn strip_along(mesh: &Mesh, points: &[SurfacePoint], faces: &[u32], strip: &mut Strip) {
     strip.restart(faces[0]);
     for (i, pair) in faces.windows(2).enumerate() {
         cross_at(mesh, strip, points[i + 1], pair[0], pair[1]);

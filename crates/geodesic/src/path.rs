@@ -255,7 +255,7 @@ fn angle_rounding(mesh: &Mesh, face: u32) -> f64 {
 }
 
 /// The corners of a face in a plane frame of its own.
-fn frame(mesh: &Mesh, face: u32) -> [DVec2; 3] {
+pub(crate) fn frame(mesh: &Mesh, face: u32) -> [DVec2; 3] {
     let [a, b, c] = mesh.faces()[face as usize].map(|v| mesh.position(v));
     let base = (b - a).length();
     let (along, away) = (

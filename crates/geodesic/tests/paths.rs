@@ -77,3 +77,93 @@ fn random_pairs_are_certified() {
         }
     }
 }
+
+/// The stages end with the answer, and their lengths fall.
+#[test]
+fn stages_of_shortening() {
+    let mesh = shapes::plate(2, 2).unwrap();
+    for start in [Start::Vertices, Start::Edges, Start::Faces] {
+        let mut finder = PathFinder::new(&mesh).with_start(start);
+        let (from, to) = (3.into(), 200.into());
+        let stages = finder.stages(from, to).unwrap();
+        let path = finder.shortest(from, to).unwrap();
+        assert_eq!(stages.last(), Some(path));
+        assert!(
+            stages
+                .windows(2)
+                .all(|s| s[1].length() <= s[0].length() * (1.0 + 1e-14))
+        );
+    }
+}
+
+/// On a cone, a guide decides on which side of the apex a path passes; so does a sequence of faces.
+#[test]
+fn a_guide_chooses_the_class() {
+    let rim = |i: u32| {
+        let angle = f64::from(i) * std::f64::consts::TAU / 12.0;
+        DVec3::new(angle.cos(), angle.sin(), 0.0)
+    };
+    let mut points: Vec<DVec3> = (0..12).map(rim).collect();
+    points.push(DVec3::Z);
+    let faces: Vec<[u32; 3]> = (0..12).map(|i| [i, (i + 1) % 12, 12]).collect();
+    let cone = Mesh::new(&points, &faces).unwrap();
+    let mut finder = PathFinder::new(&cone);
+    let near = finder.shortest(0.into(), 5.into()).unwrap().length();
+    let far = [7, 8, 9, 10].map(|f| cone.face_point(f, [0.1, 0.1, 0.8]).unwrap());
+    let guide: Vec<_> = [5.into()]
+        .into_iter()
+        .chain(far)
+        .chain([0.into()])
+        .collect();
+    let guided = finder.guided(&guide).unwrap().clone();
+    assert!(guided.length() > near && guided.certify(&cone).unwrap().is_geodesic());
+    assert!(guided.faces().contains(&8));
+    let along = finder
+        .with_neighbouring_classes(false)
+        .along(&[5, 6, 7, 8, 9, 10, 11], 5.into(), 0.into())
+        .unwrap()
+        .clone();
+    assert!((along.length() - guided.length()).abs() < 1e-14);
+}
+
+#[test]
+fn hostile_questions_are_refused() {
+    let mesh = shapes::cube().unwrap();
+    let mut finder = PathFinder::new(&mesh);
+    assert_eq!(
+        finder.shortest(8.into(), 0.into()),
+        Err(Error::NoSuchVertex {
+            vertex: 8,
+            vertices: 8
+        })
+    );
+    let (a, b) = (0.into(), 7.into());
+    assert_eq!(
+        finder.along(&[0, 2], a, b),
+        Err(Error::BrokenSequence {
+            position: 1,
+            faces: [0, 2]
+        })
+    );
+    assert_eq!(
+        finder.along(&[], a, b),
+        Err(Error::BrokenSequence {
+            position: 0,
+            faces: [0, 0]
+        })
+    );
+    assert_eq!(
+        finder.along(&[0, 99], a, b),
+        Err(Error::NoSuchFace {
+            face: 99,
+            faces: 12
+        })
+    );
+    assert_eq!(
+        finder.along(&[4], a, b),
+        Err(Error::SequenceMissesPoint { point: b })
+    );
+    assert_eq!(finder.guided(&[a]), Err(Error::ShortLoop { points: 1 }));
+    assert_eq!(finder.shortest(a, a).unwrap().length(), 0.0);
+    assert_eq!(finder.guided(&[a, a]).unwrap().length(), 0.0);
+}
