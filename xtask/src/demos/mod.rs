@@ -89,7 +89,7 @@ mod ribbon_surface;
 
 mod seahorse;
 
-// mod straightest;
+mod straightest;
 
 mod t_quartic;
 
@@ -132,7 +132,7 @@ pub fn all() -> Vec<Entry> {
 
         // entry::<rrmf_tube::RrmfTube>(),
         entry::<seahorse::Seahorse>(),
-        // entry::<straightest::Straightest>(),
+        entry::<straightest::Straightest>(),
 
         entry::<t_quartic::TQuartic>(),
 
