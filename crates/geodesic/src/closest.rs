@@ -81,7 +81,8 @@ impl<'m> ClosestPoint<'m> {
                 FaceBox(bounds)
             })
             .collect();
-        let bvh = build_bvh2(&boxes, BvhBuildParams::fast_build(), &mut Duration::ZERO);
+        let mut time = Duration::ZERO;
+        let bvh = build_bvh2(&boxes, BvhBuildParams::fast_build(), &mut time);
         Self {
             mesh,
             bvh,

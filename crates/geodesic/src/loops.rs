@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::finder::PathFinder;
 use crate::mesh::{Mesh, face_of};
-use crate::path::{Certificate, GeodesicPath, Pivot, certify};
+use crate::path::{Certificate, GeodesicPath, certify};
 use crate::pivot::{SIDE_ANGLE, Shortener, push_fan, ray_in_face, side_angles};
 use crate::straightest::Straightest;
 use crate::strip::{Side, Strip};

@@ -183,7 +183,7 @@ impl<'m> TorusClasses<'m> {
 /// Two dual curves that generate the crossings of all loops.
 fn dual_curves(mesh: &Mesh) -> Vec<[i32; 2]> {
     let mut in_tree = vec![false; mesh.halfedge_count()];
-    let mut mark = |h: u32, marks: &mut Vec<bool>| {
+    let mark = |h: u32, marks: &mut Vec<bool>| {
         marks[h as usize] = true;
         mesh.twin(h)
             .into_iter()

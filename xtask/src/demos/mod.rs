@@ -65,9 +65,9 @@ mod cyclide_zoo;
 
 mod dual_control;
 
-// mod geodesic;
+mod geodesic;
 
-// mod geodesic_loop;
+mod geodesic_loop;
 
 mod geodesic_patch;
 
@@ -114,9 +114,9 @@ pub fn all() -> Vec<Entry> {
         entry::<cyclide_zoo::CyclideZoo>(),
         entry::<dual_control::DualControl>(),
 
-        // entry::<geodesic::Geodesic>(),
+        entry::<geodesic::Geodesic>(),
 
-        // entry::<geodesic_loop::GeodesicLoop>(),
+        entry::<geodesic_loop::GeodesicLoop>(),
 
         entry::<geodesic_patch::GeodesicPatch>(),
 

@@ -1,0 +1,340 @@
+//! Closed geodesics on toroidal surfaces, and fibres on nested surfaces of revolution.
+//!
+//! What one sees: a torus with three coloured loops that wind around it as taut strings do, each beside the thin dark line
+//! that it was tightened from; a lopsided ring, a model of the right ventricle, with two such loops; and three glass
+//! cups, one in the other, models of the left ventricle, with fibres that swing between two heights on each.
+
+use std::f64::consts::{PI, TAU};
+
+use anyhow::{Context as _, Result};
+use geodesic::{
+    GeodesicLoop as Loop, LoopFinder, Mesh as Surface, Straightest, SurfacePoint, TorusClasses,
+    shapes,
+};
+use glam::{DVec2, DVec3};
+
+use crate::color::{BLUE, Color, GREEN, INK, MIST, ORANGE, SKY, VERMILION};
+use crate::demo::{Context, Demo};
+use crate::figure::{Figure, Marker, Plot};
+use crate::mesh::Mesh;
+use crate::render::{Material, Scene};
+use crate::report::Target;
+
+#[derive(clap::Args, Debug)]
+pub(super) struct GeodesicLoop {
+    /// Radius of the torus
+    #[arg(long, default_value_t = 2.0)]
+    major: f64,
+    /// Radius of its tube
+    #[arg(long, default_value_t = 0.7)]
+    minor: f64,
+}
+
+/// Classes (p, q): p turns along the parallels, q around the tube.
+const CLASSES: [(u32, u32); 3] = [(1, 1), (1, 2), (1, 3)];
+const COLORS: [Color; 3] = [VERMILION, BLUE, GREEN];
+
+impl Demo for GeodesicLoop {
+    const NAME: &'static str = "geodesic-loop";
+    const PAPER: &'static str = "ph-geodesic-variation-wavefront, Figs 2.9 to 2.12";
+    const ABOUT: &'static str =
+        "Closed geodesics on toroidal surfaces, fibres on nested surfaces of revolution";
+
+    fn run(&self, context: &mut Context) -> Result<()> {
+        self.torus(context)?;
+        ventricle(context)?;
+        fibres(context)
+    }
+}
+
+impl GeodesicLoop {
+    fn torus(&self, context: &mut Context) -> Result<()> {
+        let (around, tube) = context.pick((144, 72), (72, 36));
+        let mesh = shapes::torus(self.major, self.minor, around, tube)?;
+        let parallel: Vec<SurfacePoint> = (0..around).map(SurfacePoint::Vertex).collect();
+        let meridian: Vec<SurfacePoint> = (0..tube)
+            .map(|j| SurfacePoint::Vertex(j * around))
+            .collect();
+        let mut classes = TorusClasses::new(&mesh, &parallel, &meridian)?;
+        let mut scene = Scene::new();
+        scene.add(self.smooth_torus(), Material::matte(MIST))?;
+        let (mut errors, mut spread, mut lengths) = (Vec::new(), 0.0_f64, Vec::new());
+        for ((p, q), color) in CLASSES.into_iter().zip(COLORS) {
+            let initial = slanted(around, tube, p, q);
+            let tight = LoopFinder::new(&mesh).tighten(&initial)?;
+            let found = classes.class_of(&tight.path().points()[1..])?;
+            anyhow::ensure!(found == [p as i32, q as i32], "the loop left its class");
+            anyhow::ensure!(
+                tight.certify(&mesh)?.is_geodesic(),
+                "the loop is not a geodesic"
+            );
+            let (constant, length) = self.closed_geodesic(f64::from(p), f64::from(q));
+            errors.push((tight.length() / length - 1.0).abs());
+            lengths.push(tight.length());
+            spread = spread.max(clairaut_deviation(tight.path().positions(), constant));
+            let positions = |points: &[SurfacePoint]| -> Result<Vec<DVec3>> {
+                Ok(points
+                    .iter()
+                    .map(|point| mesh.point_position(*point))
+                    .collect::<Result<_, _>>()?)
+            };
+            scene.add(
+                Mesh::tube(&positions(&initial)?, 0.008, true),
+                Material::matte(INK),
+            )?;
+            scene.add(ring(&tight, 0.022), Material::glossy(color))?;
+        }
+        scene.ground_below();
+        let camera = scene.camera(DVec3::new(-0.2, -1.0, 0.9), context.aspect());
+        context.number("loop_lengths", lengths, Target::Free);
+        context.number("loop_length_error", errors, Target::AtMost(1e-3));
+        context.number("loop_clairaut_deviation", spread, Target::AtMost(0.05));
+        context.render(
+            "render",
+            &scene,
+            &camera,
+            "Loops of the classes (1, 1), (1, 2) and (1, 3) on a torus: dark where they began, coloured when tight.",
+            "A torus with three coloured closed curves that wind around it, each beside a thin dark one.",
+        )
+    }
+
+    fn smooth_torus(&self) -> Mesh {
+        Mesh::grid(192, 96, |u, v| {
+            let ((su, cu), (sv, cv)) = ((TAU * u).sin_cos(), (TAU * v).sin_cos());
+            let normal = DVec3::new(cu * cv, su * cv, sv);
+            (
+                DVec3::new(self.major * cu, self.major * su, 0.0) + 0.995 * self.minor * normal,
+                normal,
+            )
+        })
+    }
+
+    /// Clairaut's constant and the length of the closed geodesic that turns `p` times along the parallels and `q` times
+    /// around the tube. The integrands are periodic, so that the trapezoidal rule converges geometrically.
+    fn closed_geodesic(&self, p: f64, q: f64) -> (f64, f64) {
+        let nodes = 4096;
+        let integral = |f: &dyn Fn(f64) -> f64| -> f64 {
+            let rho =
+                |k: u32| self.major + self.minor * (TAU * f64::from(k) / f64::from(nodes)).cos();
+            (0..nodes).map(|k| f(rho(k))).sum::<f64>() * TAU / f64::from(nodes)
+        };
+        let turn = |c: f64| integral(&|rho| c * self.minor / (rho * (rho * rho - c * c).sqrt()));
+        let (mut low, mut high) = (0.0, self.major - self.minor);
+        for _ in 0..80 {
+            let middle = 0.5 * (low + high);
+            if q * turn(middle) < TAU * p {
+                low = middle
+            } else {
+                high = middle
+            }
+        }
+        (
+            low,
+            q * integral(&|rho| self.minor * rho / (rho * rho - low * low).sqrt()),
+        )
+    }
+}
+
+/// Vertices of a grid along the line of slope q/p in its parameters.
+fn slanted(around: u32, tube: u32, p: u32, q: u32) -> Vec<SurfacePoint> {
+    let steps = 4 * (p + q);
+    (0..steps)
+        .map(|k| {
+            let t = f64::from(k) / f64::from(steps);
+            let index =
+                |turns: u32, count: u32| (t * f64::from(turns * count)).round() as u32 % count;
+            SurfacePoint::Vertex(index(q, tube) * around + index(p, around))
+        })
+        .collect()
+}
+
+/// Largest relative deviation of ρ cos ψ from Clairaut's constant along a curve about the z axis.
+fn clairaut_deviation(points: &[DVec3], constant: f64) -> f64 {
+    points
+        .windows(2)
+        .filter(|ends| ends[0].distance(ends[1]) > 1e-6)
+        .map(|ends| {
+            let direction = (ends[1] - ends[0]).normalize();
+            let middle = 0.5 * (ends[0] + ends[1]);
+            ((middle.x * direction.y - middle.y * direction.x).abs() / constant - 1.0).abs()
+        })
+        .fold(0.0, f64::max)
+}
+
+/// A loop as a tube.
+fn ring(tight: &Loop, radius: f64) -> Mesh {
+    let mut points = tight.path().positions().to_vec();
+    points.pop();
+    points.dedup_by(|a, b| a.distance(*b) < 0.2 * radius);
+    Mesh::tube(&points, radius, true)
+}
+
+/// A lopsided ring: the tube swells on one side and is flattened, as the right ventricle is.
+fn lopsided(u: f64, v: f64) -> DVec3 {
+    let ((su, cu), (sv, cv)) = (u.sin_cos(), v.sin_cos());
+    let tube = 0.62 + 0.26 * (u - 0.6).cos();
+    let rho = 1.75 + 0.3 * (2.0 * u).cos() + tube * cv;
+    DVec3::new(
+        1.15 * rho * cu,
+        0.9 * rho * su,
+        tube * (1.2 + 0.25 * su) * sv + 0.25 * (u + 0.4).sin(),
+    )
+}
+
+fn lopsided_mesh(around: u32, tube: u32) -> Result<Surface> {
+    let grid = shapes::torus(2.0, 0.7, around, tube)?;
+    let angle = |k: u32, n: u32| TAU * f64::from(k) / f64::from(n);
+    let positions: Vec<DVec3> = (0..around * tube)
+        .map(|k| lopsided(angle(k % around, around), angle(k / around, tube)))
+        .collect();
+    Ok(Surface::new(&positions, grid.faces())?)
+}
+
+/// Loops on the lopsided ring, level by level.
+fn ventricle(context: &mut Context) -> Result<()> {
+    let levels = context.pick(4, 3);
+    let (mut turning, mut lengths) = (Vec::new(), Vec::new());
+    let mut scene = Scene::new();
+    let smooth = lopsided_mesh(240, 120)?;
+    scene.add(
+        Mesh::smooth(smooth.positions().to_vec(), smooth.faces().to_vec()),
+        Material::matte(MIST),
+    )?;
+    for level in 0..levels {
+        let (around, tube) = (24 << level, 12 << level);
+        let mesh = lopsided_mesh(around, tube)?;
+        let mut worst = 0.0_f64;
+        for (((p, q), color), lift) in [(1, 1), (1, 2)]
+            .into_iter()
+            .zip([ORANGE, BLUE])
+            .zip([1.0, 1.0])
+        {
+            let initial = slanted(around, tube, p, q);
+            let tight = LoopFinder::new(&mesh).tighten(&initial)?;
+            anyhow::ensure!(
+                tight.certify(&mesh)?.is_geodesic(),
+                "the loop is not a geodesic"
+            );
+            worst = worst.max(largest_turn(&tight));
+            if level + 1 == levels {
+                lengths.push(tight.length());
+                let start: Vec<DVec3> = initial
+                    .iter()
+                    .map(|point| mesh.point_position(*point))
+                    .collect::<Result<_, _>>()?;
+                scene.add(Mesh::tube(&start, 0.008, true), Material::matte(INK))?;
+                scene.add(ring(&tight, 0.022 * lift), Material::glossy(color))?;
+            }
+        }
+        turning.push(worst);
+    }
+    let falls = turning.windows(2).all(|pair| pair[1] < pair[0]);
+    context.number("ventricle_loop_lengths", lengths, Target::Free);
+    context.number("max_turning_rad", turning.clone(), Target::Free);
+    context.number("max_turning_falls", falls, Target::exactly(true));
+    scene.ground_below();
+    let camera = scene.camera(DVec3::new(-0.4, -1.0, 0.9), context.aspect());
+    context.render(
+        "render-ventricle",
+        &scene,
+        &camera,
+        "Two closed geodesics on a model of the right ventricle; dark: the closed curves that they were tightened from.",
+        "A lopsided ring with an orange and a blue closed curve around it.",
+    )?;
+    let mut plot = Plot::chart("", "vertices around", "largest turn between segments (rad)");
+    plot.log_x().log_y();
+    let series: Vec<DVec2> = turning
+        .iter()
+        .enumerate()
+        .map(|(level, &turn)| DVec2::new(f64::from(24 << level), turn))
+        .collect();
+    plot.polyline(&series, BLUE.line().width(2.0));
+    plot.points(&series, Marker::Disc, BLUE.fill());
+    context.figure(
+        "figure",
+        &Figure::new(plot),
+        "The loops become smooth curves: the largest turn between neighbouring segments halves with the edges.",
+        "A chart with a falling line.",
+    )
+}
+
+/// Largest angle between neighbouring segments of a loop in space.
+fn largest_turn(tight: &Loop) -> f64 {
+    let mut points = tight.path().positions().to_vec();
+    points.dedup_by(|a, b| a.distance(*b) < 1e-6);
+    points
+        .windows(3)
+        .map(|p| (p[1] - p[0]).angle_between(p[2] - p[1]))
+        .fold(0.0, f64::max)
+}
+
+/// Nested cups with fibres.
+fn fibres(context: &mut Context) -> Result<()> {
+    let mut scene = Scene::new();
+    let mut deviation = 0.0_f64;
+    for (radius, color) in [(1.0, VERMILION), (0.78, ORANGE), (0.56, BLUE)] {
+        // The lower part of an ellipsoid, open above and below.
+        let (around, rows) = context.pick((160, 120), (96, 72));
+        let height = 1.6 * radius + 0.2;
+        let latitude = |j: f64| -1.25 + (1.25 + 0.62) * j / f64::from(rows);
+        let point = |p: DVec2| {
+            let ((su, cu), (sv, cv)) = (
+                (TAU * p.x / f64::from(around)).sin_cos(),
+                latitude(p.y).sin_cos(),
+            );
+            DVec3::new(radius * cu * cv, radius * su * cv, height * sv)
+        };
+        let normal = |p: DVec3| (p / DVec3::new(radius, radius, height).powf(2.0)).normalize();
+        let mesh = closed_sheet(around, rows, point)?;
+        let normals: Vec<DVec3> = mesh.positions().iter().map(|p| normal(*p)).collect();
+        let tracer = Straightest::new(&mesh).with_normals(&normals)?;
+        let shell = Mesh::smooth(mesh.positions().to_vec(), mesh.faces().to_vec());
+        scene.add(shell, Material::glass(SKY))?;
+        // From the equator, at angles that turn back below the upper rim.
+        let equator = (1.25 / (1.25 + 0.62) * f64::from(rows)).round() as u32;
+        let mut tubes = Mesh::default();
+        for k in 0..10 {
+            let v = equator * around + k * around / 10;
+            let here = mesh.positions()[v as usize];
+            let (east, up) = (DVec3::Z.cross(here).normalize(), DVec3::Z);
+            let angle = 0.55_f64;
+            let direction = angle.cos() * east + angle.sin() * up;
+            let from = SurfacePoint::Vertex(v);
+            let face = tracer
+                .face_towards(from, direction)
+                .context("a face in this direction")?;
+            let trace = tracer.trace(from, face, direction, 2.6 * PI * radius)?;
+            let constant = here.truncate().length() * angle.cos();
+            deviation = deviation.max(clairaut_deviation(&trace.positions, constant));
+            let mut points = trace.positions;
+            points.dedup_by(|a, b| a.distance(*b) < 2e-3);
+            tubes.append(Mesh::tube(&points, 0.011, false));
+        }
+        scene.add(tubes, Material::glossy(color))?;
+    }
+    context.number("clairaut_max_deviation", deviation, Target::AtMost(0.02));
+    scene.ground_below();
+    let camera = scene.camera(DVec3::new(-0.3, -1.0, 0.55), context.aspect());
+    context.render(
+        "render-fibres",
+        &scene,
+        &camera,
+        "Geodesic fibres on nested surfaces of revolution, a model of the left ventricle: each swings between two parallels.",
+        "Three nested glass cups with red, orange and blue curves winding around them.",
+    )
+}
+
+/// A sheet closed around: column `around` is column 0.
+fn closed_sheet(around: u32, rows: u32, point: impl Fn(DVec2) -> DVec3) -> Result<Surface> {
+    let (mut positions, mut faces) = (Vec::new(), Vec::new());
+    for j in 0..=rows {
+        for i in 0..around {
+            positions.push(point(DVec2::new(f64::from(i), f64::from(j))));
+            if j < rows {
+                let (a, b) = (j * around + i, j * around + (i + 1) % around);
+                faces.extend([[a, b, b + around], [a, b + around, a + around]]);
+            }
+        }
+    }
+    Ok(Surface::new(&positions, &faces)?)
+}
