@@ -3,7 +3,11 @@
 //! `cargo run --release -p geodesic --example shortest_path -- bunny.obj 12 3400 > path.obj`
 //!
 //! Without arguments, a path on a torus. A file that is not a clean mesh is repaired, and what was done is said.
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "an example talks to the user")]
+#![expect(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "an example talks to the user"
+)]
 
 use std::error::Error;
 
@@ -19,12 +23,22 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut finder = PathFinder::new(&mesh);
     let path = finder.shortest(mesh.vertex_point(from)?, mesh.vertex_point(to)?)?;
     let certificate = path.certify(&mesh)?;
-    eprintln!("length {}, {} faces, {} pivots", path.length(), path.faces().len(), path.pivots().len());
-    eprintln!("a geodesic: {} ({certificate:?})", certificate.is_geodesic());
+    eprintln!(
+        "length {}, {} faces, {} pivots",
+        path.length(),
+        path.faces().len(),
+        path.pivots().len()
+    );
+    eprintln!(
+        "a geodesic: {} ({certificate:?})",
+        certificate.is_geodesic()
+    );
     for p in path.positions() {
         println!("v {} {} {}", p.x, p.y, p.z);
     }
-    let line: Vec<String> = (1..=path.positions().len()).map(|i| i.to_string()).collect();
+    let line: Vec<String> = (1..=path.positions().len())
+        .map(|i| i.to_string())
+        .collect();
     println!("l {}", line.join(" "));
     Ok(())
 }
@@ -35,6 +49,9 @@ fn load(file: &str) -> Result<Mesh, geodesic::Error> {
         return Ok(mesh);
     }
     let repaired = soup.repair()?;
-    eprintln!("{file} is not a mesh and was repaired: {:?}", repaired.report);
+    eprintln!(
+        "{file} is not a mesh and was repaired: {:?}",
+        repaired.report
+    );
     Ok(repaired.mesh)
 }

@@ -307,9 +307,9 @@ impl<'m> Straightest<'m> {
         let rates = self.rates(state.face, state.direction);
         let threshold = PARALLEL * rates.map(f64::abs).into_iter().fold(0.0, f64::max);
         let mut best = (0, f64::INFINITY);
-        for k in 0..3 {
-            if rates[k] < -threshold && !state.entered[k] {
-                let distance = (-state.weights[k] / rates[k]).max(0.0);
+        for (k, &rate) in rates.iter().enumerate() {
+            if rate < -threshold && !state.entered[k] {
+                let distance = (-state.weights[k] / rate).max(0.0);
                 if distance < best.1 {
                     best = (k, distance);
                 }

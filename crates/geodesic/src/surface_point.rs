@@ -160,7 +160,7 @@ impl Mesh {
                 }
                 let sum: f64 = barycentric.iter().sum();
                 let inside = barycentric.iter().all(|&l| l >= -OUTSIDE);
-                if !inside || !((sum - 1.0).abs() <= OUTSIDE) {
+                if !inside || sum.is_nan() || (sum - 1.0).abs() > OUTSIDE {
                     return Err(Error::OutsideFace { barycentric });
                 }
                 let weights = barycentric.map(|l| l / sum);

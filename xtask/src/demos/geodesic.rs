@@ -164,10 +164,9 @@ fn draw_cube(context: &mut Context) -> Result<()> {
             ),
         ),
     ];
-    let columns = plots.len();
     context.figure(
         "figure-cube",
-        &Figure::grid(columns, plots),
+        &Figure::grid(1, plots).aspect(3.0),
         "Faces of a cube laid flat with geodesics: straight lines.",
         "Two strips of triangles, each crossed by a straight red line.",
     )
@@ -175,7 +174,15 @@ fn draw_cube(context: &mut Context) -> Result<()> {
 
 /// A path in the plane of its faces.
 fn unfolded(mesh: &Surface, path: &GeodesicPath, title: &str) -> Plot {
-    let flat = path.unfold(mesh);
+    let mut flat = path.unfold(mesh);
+    // From left to right.
+    let chord = flat.points[flat.points.len() - 1] - flat.points[0];
+    let turn = DVec2::new(chord.x, -chord.y).normalize_or(DVec2::X);
+    flat.points.iter_mut().for_each(|p| *p = turn.rotate(*p));
+    flat.corners
+        .iter_mut()
+        .flatten()
+        .for_each(|p| *p = turn.rotate(*p));
     let mut plot = Plot::geometry(title);
     for corners in &flat.corners {
         plot.polygon(corners, SKY.alpha(0.18).fill().stroke(GREY).width(0.6));
@@ -188,8 +195,8 @@ fn unfolded(mesh: &Surface, path: &GeodesicPath, title: &str) -> Plot {
         .collect();
     plot.points(&pivots, Marker::Disc, INK.fill());
     let ends = [flat.points[0], flat.points[flat.points.len() - 1]];
-    plot.point(ends[0], "X₀", Side::AboveLeft, VERMILION.fill());
-    plot.point(ends[1], "X₁", Side::BelowRight, VERMILION.fill());
+    plot.point(ends[0], "X₀", Side::Left, VERMILION.fill());
+    plot.point(ends[1], "X₁", Side::Right, VERMILION.fill());
     plot
 }
 
@@ -279,7 +286,7 @@ fn render(
         let mut points = path.positions().to_vec();
         points.dedup_by(|a, b| a.distance(*b) < 1e-9 * size);
         if points.len() > 1 {
-            tubes.append(Mesh::tube(&points, 2.5e-3 * size, false));
+            tubes.append(Mesh::tube(&points, 3.5e-3 * size, false));
         }
     }
     let count = tubes.positions.len();

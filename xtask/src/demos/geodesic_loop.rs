@@ -72,14 +72,8 @@ impl GeodesicLoop {
             errors.push((tight.length() / length - 1.0).abs());
             lengths.push(tight.length());
             spread = spread.max(clairaut_deviation(tight.path().positions(), constant));
-            let positions = |points: &[SurfacePoint]| -> Result<Vec<DVec3>> {
-                Ok(points
-                    .iter()
-                    .map(|point| mesh.point_position(*point))
-                    .collect::<Result<_, _>>()?)
-            };
             scene.add(
-                Mesh::tube(&positions(&initial)?, 0.008, true),
+                slanted_line(p, q, |u, v| self.point(u, v)),
                 Material::matte(INK),
             )?;
             scene.add(ring(&tight, 0.022), Material::glossy(color))?;
@@ -98,14 +92,17 @@ impl GeodesicLoop {
         )
     }
 
+    fn point(&self, u: f64, v: f64) -> DVec3 {
+        let rho = self.major + self.minor * v.cos();
+        DVec3::new(rho * u.cos(), rho * u.sin(), self.minor * v.sin())
+    }
+
     fn smooth_torus(&self) -> Mesh {
         Mesh::grid(192, 96, |u, v| {
-            let ((su, cu), (sv, cv)) = ((TAU * u).sin_cos(), (TAU * v).sin_cos());
-            let normal = DVec3::new(cu * cv, su * cv, sv);
-            (
-                DVec3::new(self.major * cu, self.major * su, 0.0) + 0.995 * self.minor * normal,
-                normal,
-            )
+            let (u, v) = (TAU * u, TAU * v);
+            let normal = DVec3::new(u.cos() * v.cos(), u.sin() * v.cos(), v.sin());
+            // A little inside the curves drawn on it.
+            (self.point(u, v) - 0.004 * self.minor * normal, normal)
         })
     }
 
@@ -146,6 +143,15 @@ fn slanted(around: u32, tube: u32, p: u32, q: u32) -> Vec<SurfacePoint> {
             SurfacePoint::Vertex(index(q, tube) * around + index(p, around))
         })
         .collect()
+}
+
+/// The closed curve of slope q/p in the parameters of a surface, as a thin tube: where a loop begins.
+fn slanted_line(p: u32, q: u32, surface: impl Fn(f64, f64) -> DVec3) -> Mesh {
+    let points: Vec<DVec3> = (0..400 * q)
+        .map(|k| TAU * f64::from(k) / f64::from(400 * q))
+        .map(|t| surface(f64::from(p) * t, f64::from(q) * t))
+        .collect();
+    Mesh::tube(&points, 0.009, true)
 }
 
 /// Largest relative deviation of ρ cos ψ from Clairaut's constant along a curve about the z axis.
@@ -204,11 +210,7 @@ fn ventricle(context: &mut Context) -> Result<()> {
         let (around, tube) = (24 << level, 12 << level);
         let mesh = lopsided_mesh(around, tube)?;
         let mut worst = 0.0_f64;
-        for (((p, q), color), lift) in [(1, 1), (1, 2)]
-            .into_iter()
-            .zip([ORANGE, BLUE])
-            .zip([1.0, 1.0])
-        {
+        for ((p, q), color) in [(1, 1), (1, 2)].into_iter().zip([ORANGE, BLUE]) {
             let initial = slanted(around, tube, p, q);
             let tight = LoopFinder::new(&mesh).tighten(&initial)?;
             anyhow::ensure!(
@@ -218,12 +220,8 @@ fn ventricle(context: &mut Context) -> Result<()> {
             worst = worst.max(largest_turn(&tight));
             if level + 1 == levels {
                 lengths.push(tight.length());
-                let start: Vec<DVec3> = initial
-                    .iter()
-                    .map(|point| mesh.point_position(*point))
-                    .collect::<Result<_, _>>()?;
-                scene.add(Mesh::tube(&start, 0.008, true), Material::matte(INK))?;
-                scene.add(ring(&tight, 0.022 * lift), Material::glossy(color))?;
+                scene.add(slanted_line(p, q, lopsided), Material::matte(INK))?;
+                scene.add(ring(&tight, 0.022), Material::glossy(color))?;
             }
         }
         turning.push(worst);

@@ -293,7 +293,7 @@ pub const fn next(h: u32) -> u32 {
 #[must_use]
 #[inline]
 pub const fn previous(h: u32) -> u32 {
-    if h % 3 == 0 { h + 2 } else { h - 1 }
+    if h.is_multiple_of(3) { h + 2 } else { h - 1 }
 }
 
 /// The face of half-edge `h`.
