@@ -7,16 +7,16 @@ use geodesic::{Mesh, SurfacePoint, TriangleSoup, shapes};
 
 /// A small generator of random numbers: the same on every machine.
 #[derive(Debug)]
-pub struct Random(pub u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
     /// A whole number below `n`.
-    pub fn below(&mut self, n: usize) -> usize {
+    pub(crate) fn below(&mut self, n: usize) -> usize {
         (self.unit() * n as f64) as usize
     }
 
     /// A number in `[0, 1)`.
-    pub fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         self.0 = self
             .0
             .wrapping_mul(6364136223846793005)
@@ -25,7 +25,7 @@ impl Random {
     }
 
     /// A point of any kind.
-    pub fn point(&mut self, mesh: &Mesh) -> SurfacePoint {
+    pub(crate) fn point(&mut self, mesh: &Mesh) -> SurfacePoint {
         let face = self.below(mesh.face_count()) as u32;
         match self.below(4) {
             0 => SurfacePoint::Edge {
@@ -76,7 +76,7 @@ fn without_faces(mesh: &Mesh, mut drop: impl FnMut(u32) -> bool) -> Mesh {
 }
 
 /// The meshes, with names.
-pub fn all() -> Vec<(String, Mesh)> {
+pub(crate) fn all() -> Vec<(String, Mesh)> {
     let mut random = Random(3);
     let mut list: Vec<(String, Mesh)> = Vec::new();
     let mut add = |name: &str, mesh: Mesh| list.push((name.to_owned(), mesh));
