@@ -1,11 +1,11 @@
-//! Loading, building and locally shortest paths, on a mesh and pairs of the user's so that a peer can be timed beside
+//! Loading, building, locally shortest paths and exact distances, on a mesh and pairs of the user's so that a peer can be timed beside
 //! us: `--mesh FILE.obj --pairs FILE.json` with `[[v0, v1], ...]`, vertex numbers in file order.
 
 use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::Result;
-use geodesic::{Mesh, PathFinder, TriangleSoup, shapes};
+use geodesic::{Mesh, PathFinder, Sweep, TriangleSoup, shapes};
 use serde_json::{Value, json};
 
 use super::{Bench, Timer};
@@ -26,7 +26,7 @@ pub(super) struct Geodesic {
 
 impl Bench for Geodesic {
     const NAME: &'static str = "geodesic";
-    const ABOUT: &'static str = "Paths on a mesh: load, build, locally shortest";
+    const ABOUT: &'static str = "Paths on a mesh: load, build, locally shortest, exact";
 
     fn run(&self, _: &Timer) -> Result<Value> {
         let mut result = serde_json::Map::new();
@@ -53,6 +53,7 @@ impl Bench for Geodesic {
         result.insert("build_ms".into(), json!(median(&mut builds)));
         let pairs = self.pairs(&mesh)?;
         local(&mesh, &pairs, &mut result)?;
+        exact(&mesh, &pairs, &mut result)?;
         result.insert("peak_bytes".into(), json!(peak_bytes()));
         Ok(Value::Object(result))
     }
@@ -113,6 +114,32 @@ fn local(
     result.insert("shorten_median_ms".into(), json!(median(&mut shorten)));
     result.insert("not_geodesic".into(), json!(not_geodesic));
     result.insert("lengths".into(), json!(lengths));
+    Ok(())
+}
+
+/// Times exact distances: from one vertex to all, and of every pair.
+fn exact(
+    mesh: &Mesh,
+    pairs: &[[u32; 2]],
+    result: &mut serde_json::Map<String, Value>,
+) -> Result<()> {
+    let mut sweep = Sweep::new(mesh);
+    let source = pairs.first().map_or(0, |pair| pair[0]);
+    let mut sweeps = Vec::new();
+    for _ in 0..ROUNDS {
+        let (field, ms) = timed(|| sweep.from_points(&[source.into()]).map(drop));
+        field.or_bad_input("--pairs FILE")?;
+        sweeps.push(ms);
+    }
+    let (mut times, mut lengths) = (Vec::new(), Vec::new());
+    for &[from, to] in pairs {
+        let (distance, ms) = timed(|| sweep.distance(from.into(), to.into()));
+        lengths.push(distance.or_bad_input("--pairs FILE")?);
+        times.push(ms);
+    }
+    result.insert("exact_sweep_ms".into(), json!(median(&mut sweeps)));
+    result.insert("exact_pair_median_ms".into(), json!(median(&mut times)));
+    result.insert("exact_lengths".into(), json!(lengths));
     Ok(())
 }
 

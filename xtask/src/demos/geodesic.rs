@@ -2,14 +2,14 @@
 //!
 //! What one sees: the cube of the thesis cut open, a straight line across two of its faces; a terrain from above on which
 //! a path, first bound to the edges, pulls itself straight update by update, its faces laid flat before and after; and the
-//! terrain (or the mesh given) in the ray tracer, coloured by the distance from the first start point with a line at
+//! terrain (or the mesh given) in the ray tracer, coloured by the exact distance from the first start point with a line at
 //! every further step, and red paths that cross these lines at right angles.
 
 use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Result, ensure};
-use geodesic::{GeodesicPath, Mesh as Surface, PathFinder, Start, TriangleSoup, shapes};
+use geodesic::{GeodesicPath, Mesh as Surface, PathFinder, Start, Sweep, TriangleSoup, shapes};
 use glam::{DVec2, DVec3};
 use serde_json::json;
 
@@ -51,6 +51,9 @@ pub(super) struct Geodesic {
     /// Vertex pairs, `[[v0, v1], ...]` [default: 20 random ones]
     #[arg(long, value_name = "FILE")]
     pairs: Option<PathBuf>,
+    /// Measure the exact distances of the pairs beside the paths
+    #[arg(long)]
+    exact: bool,
 }
 
 impl Demo for Geodesic {
@@ -62,6 +65,9 @@ impl Demo for Geodesic {
         let mesh = self.surface(context)?;
         let pairs = self.pairs(&mesh, context.seed())?;
         let paths = measure(context, &mesh, &pairs)?;
+        if self.exact {
+            measure_exact(context, &mesh, &pairs, &paths)?;
+        }
         draw_cube(context)?;
         draw_updates(context)?;
         render(context, &mesh, &pairs, &paths)
@@ -134,6 +140,36 @@ fn measure(context: &mut Context, mesh: &Surface, pairs: &[[u32; 2]]) -> Result<
     context.number("not_geodesic", not_geodesic, Target::exactly(0));
     context.number("median_ms_local", times[times.len() / 2], Target::Free);
     Ok(paths)
+}
+
+/// Measures the exact distance of every pair, and how much longer the paths are.
+fn measure_exact(
+    context: &mut Context,
+    mesh: &Surface,
+    pairs: &[[u32; 2]],
+    paths: &[GeodesicPath],
+) -> Result<()> {
+    let mut sweep = Sweep::new(mesh);
+    let (mut exact, mut times, mut ratios) = (Vec::new(), Vec::new(), Vec::new());
+    for (&[from, to], path) in pairs.iter().zip(paths) {
+        let start = Instant::now();
+        let distance = sweep.distance(from.into(), to.into())?;
+        times.push(start.elapsed().as_secs_f64() * 1e3);
+        // A point is as far from itself by any path.
+        let equal = distance == 0.0 && path.length() == 0.0;
+        ratios.push(if equal { 1.0 } else { path.length() / distance });
+        exact.push(distance);
+    }
+    times.sort_by(f64::total_cmp);
+    let smallest = ratios.iter().copied().fold(f64::INFINITY, f64::min);
+    let largest = ratios.iter().copied().fold(0.0, f64::max);
+    let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+    context.number("exact_lengths", exact, Target::Free);
+    context.number("median_ms_exact", times[times.len() / 2], Target::Free);
+    context.number("min_ratio_to_exact", smallest, Target::AtLeast(1.0 - 1e-12));
+    context.number("mean_ratio_to_exact", mean, Target::Free);
+    context.number("max_ratio_to_exact", largest, Target::Free);
+    Ok(())
 }
 
 /// The cube of Fig. 2.1: the path between opposite corners, and another geodesic that is longer.
@@ -313,18 +349,12 @@ fn render(
     )
 }
 
-/// Length of the path found from a vertex to every vertex; 0 where there is none.
+/// The exact distance of every vertex from one; 0 where there is no way.
 fn distances(mesh: &Surface, source: u32) -> Result<Vec<f64>> {
-    let mut finder = PathFinder::new(mesh);
-    let mut distances = Vec::with_capacity(mesh.vertex_count());
-    for v in 0..mesh.vertex_count() as u32 {
-        distances.push(
-            finder
-                .shortest(source.into(), v.into())
-                .map_or(0.0, GeodesicPath::length),
-        );
-    }
-    Ok(distances)
+    let mut sweep = Sweep::new(mesh);
+    let field = sweep.from_points(&[source.into()])?;
+    let reached = |d: &f64| if d.is_finite() { *d } else { 0.0 };
+    Ok(field.vertex_distances().iter().map(reached).collect())
 }
 
 /// A sphere with bumps.
