@@ -28,7 +28,7 @@ use crate::report::Target;
 #[derive(clap::Args, Debug)]
 pub(super) struct GeodesicPatch {
     /// How strongly the model bends from which the corner data are read
-    #[arg(long, default_value_t = 0.6)]
+    #[arg(long, default_value_t = 0.8)]
     bend: f64,
 }
 
