@@ -111,7 +111,7 @@ const LEAST_TOLERANCE_ULPS: f64 = 64.0;
 /// Approximates `curve` by a spline of class-3 arcs and segments.
 ///
 /// The curve is cut at its inflections, vertices and knots; on every part of monotone curvature the end elements are
-/// admissible, and two class-3 arcs interpolate them with G2 contact ([`G2Pair`]); where the measured error exceeds the
+/// admissible, and two class-3 arcs interpolate them with G2 contact ([`G2Pair`](crate::G2Pair)); where the measured error exceeds the
 /// tolerance, the part is cut further. Straight spans stay segments, circular arcs stay exact. The policy where class 3
 /// has no curvature to match, at inflections and cusps, is one G1 arc on the adjacent part, in parts that shrink towards
 /// the point. Corners and cusps become fans of normals.
