@@ -67,8 +67,7 @@ impl LineElement {
 /// let start = LineElement::new(DVec2::new(2.0, 0.0), DVec2::X)?;
 /// let end = LineElement::new(DVec2::new(0.0, 1.0), DVec2::Y)?;
 /// let ends = G1Ends::new(start, end)?;
-/// let (low, high) = ends.regular_alphas()?;
-/// let arc = ends.arc((low + 1.0).min(high))?;
+/// let arc = ends.arc(ends.clamp_alpha(1.0)?)?;
 /// assert!((arc.point(1.0) - DVec2::Y).length() < 1e-15);
 /// assert!(arc.end_radii().iter().all(|r| *r > 0.0));
 /// # Ok::<(), ph_curves::Error>(())
