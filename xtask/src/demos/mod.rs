@@ -75,9 +75,9 @@ mod geodesic_patch;
 
 mod mass_points;
 
-// mod minkowski;
+mod minkowski;
 
-// mod ovals;
+mod ovals;
 
 mod pencils;
 
@@ -85,7 +85,7 @@ mod ribbon;
 
 mod ribbon_surface;
 
-// mod rrmf_tube;
+mod rrmf_tube;
 
 mod seahorse;
 
@@ -122,15 +122,15 @@ pub fn all() -> Vec<Entry> {
 
         // entry::<geodesic_surface::GeodesicSurface>(),
         entry::<mass_points::MassPoints>(),
-        // entry::<minkowski::Minkowski>(),
+        entry::<minkowski::Minkowski>(),
 
-        // entry::<ovals::Ovals>(),
+        entry::<ovals::Ovals>(),
         entry::<pencils::Pencils>(),
         entry::<ribbon::Ribbon>(),
 
         entry::<ribbon_surface::RibbonSurface>(),
 
-        // entry::<rrmf_tube::RrmfTube>(),
+        entry::<rrmf_tube::RrmfTube>(),
         entry::<seahorse::Seahorse>(),
         entry::<straightest::Straightest>(),
 
