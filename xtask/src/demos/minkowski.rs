@@ -21,7 +21,7 @@ use crate::report::Target;
 pub(super) struct Minkowski {
     /// Height of the bumps of the second indicatrix, below 1/15
     #[arg(long, default_value_t = 0.05)]
-    height: f64,
+    bumps: f64,
 }
 
 impl Demo for Minkowski {
@@ -31,7 +31,7 @@ impl Demo for Minkowski {
 
     fn run(&self, context: &mut Context) -> Result<()> {
         let ellipse = Ellipse { a: 1.6, b: 0.9 };
-        let bumped = Bumped { height: self.height };
+        let bumped = Bumped { height: self.bumps };
         let ellipse_arc = ellipse.arc(-0.2, 1.9)?;
         let bumped_arc = bumped.arc(-0.2, 1.2)?;
         let first = Study { plane: MinkowskiPlane::new(Indicatrix::try_new(ellipse)?), arc: ellipse_arc, name: "ellipse" };
@@ -58,7 +58,7 @@ impl Demo for Minkowski {
 
         let duality = first.duality_error().max(second.duality_error());
         context.number("duality_max_error", duality, Target::AtMost(1e-9));
-        let samples = context.pick(2_000, 300);
+        let samples = context.pick(6_000, 3_000);
         let gap = first.sum_gap(samples)?.max(second.sum_gap(samples)?);
         context.number("offset_vs_minkowski_sum_max_gap", gap, Target::AtMost(1e-6));
         context.number("indicatrices", 2, Target::exactly(2));
@@ -200,7 +200,8 @@ impl<S: Support> Study<S> {
             // The body runs counter-clockwise: its left is inside.
             let offset = self.plane.offset_point(contact.point, contact.normal.perp(), -DISTANCE)?;
             // A polygon of n points falls short of its curve by R (2π/n)² / 8.
-            let short = (contact.radius + DISTANCE) * (TAU / f64::from(samples)).powi(2) / 8.0;
+            let radius = contact.radius + DISTANCE * self.plane.indicatrix().jet(psi).radius();
+            let short = radius * (TAU / f64::from(samples)).powi(2) / 8.0;
             worst = worst.max((offset.dot(normal) - sum).abs() - short);
         }
         Ok(worst.max(0.0))

@@ -96,7 +96,7 @@ fn polygon(vertices: &[(f64, f64)]) -> Result<EvolutePolygon> {
 fn moved_lines() -> Result<Rosette<7>> {
     let circle = SupportJet { support: 0.5 * WIDTH, slope: 0.0, bend: 0.0 };
     let nodes = [(0.0, circle), (1.0, circle), (2.1, circle), (PI, circle)];
-    let half = nodes.windows(2).zip([0.9, -0.7, 0.8]).map(|(ends, shift)| {
+    let half = nodes.windows(2).zip([0.5, -0.4, 0.45]).map(|(ends, shift)| {
         let still: PhArc<6> = hermite_arc(ends[0], ends[1], &[])?;
         let middle = bezier_mass::bernstein::elevate(still.coefficients())[3];
         Ok(hermite_arc::<7>(ends[0], ends[1], &[middle + shift])?)

@@ -25,9 +25,9 @@ pub(super) struct RrmfTube {
 }
 
 /// The preimage's ends; the middle coefficient makes the quintic one with a rational frame.
-const FIRST: Quaternion = Quaternion::new(1.2, 0.3, -0.5, 0.1);
-const LAST: Quaternion = Quaternion::new(0.1, -0.5, 0.9, 0.7);
-const ANGLE: f64 = 1.9;
+const FIRST: Quaternion = Quaternion::new(1.0, 0.2, -0.3, 0.1);
+const LAST: Quaternion = Quaternion::new(0.7, 0.5, 0.4, -0.2);
+const ANGLE: f64 = 0.3;
 
 impl Demo for RrmfTube {
     const NAME: &'static str = "rrmf-tube";
@@ -40,7 +40,7 @@ impl Demo for RrmfTube {
         let patches = rotation_minimising_tube(&quintic, self.radius)?;
         let steps = context.pick(600, 60);
 
-        let apart = dvec3(0.0, 0.6, 0.0);
+        let apart = dvec3(-0.08, 0.22, 0.0);
         let frenet = |t: f64| curve.frenet_frame(t);
         let minimal = |t: f64| quintic.frame(t);
         let mut scene = Scene::new();
@@ -48,7 +48,7 @@ impl Demo for RrmfTube {
         scene.add(striped(&patches, curve, steps, frenet, -apart)?, stripes(ColorMap::Diverging))?;
         scene.add(striped(&patches, curve, steps, minimal, apart)?, stripes(ColorMap::Diverging))?;
         scene.ground_below();
-        let camera = scene.camera(dvec3(1.0, -0.35, 0.75), context.aspect());
+        let camera = scene.camera(dvec3(1.0, 0.35, 0.6), context.aspect());
         context.render(
             "render",
             &scene,
@@ -75,10 +75,11 @@ fn striped(
     for patch in patches {
         let around = 48;
         let mut stripes = Vec::with_capacity((steps + 1) * (around + 1));
-        for i in 0..=steps {
-            let u = i as f64 / steps as f64;
-            let (centre, frame) = (curve.point(u), frame(u)?);
-            for j in 0..=around {
+        let frames = (0..=steps).map(|i| frame(i as f64 / steps as f64)).collect::<Result<Vec<_>, _>>()?;
+        for j in 0..=around {
+            for (i, frame) in frames.iter().enumerate() {
+                let u = i as f64 / steps as f64;
+                let centre = curve.point(u);
                 let spoke = patch.point(u, j as f64 / around as f64)? - centre;
                 let angle = spoke.dot(frame.third).atan2(spoke.dot(frame.second));
                 stripes.push((4.0 * angle).sin().signum());
