@@ -9,7 +9,8 @@ use std::f64::consts::{PI, TAU};
 use anyhow::Result;
 use glam::DVec2;
 use ph_curves::{
-    Bumped, DualCurve, Ellipse, Indicatrix, IsoperimetricArc, MinkowskiPlane, Support, constant_width_arcs,
+    Bumped, DualCurve, Ellipse, Indicatrix, IsoperimetricArc, MinkowskiPlane, Support,
+    constant_width_arcs,
 };
 
 use crate::color::{BLUE, GREEN, GREY, INK, MIST, ORANGE, VERMILION};
@@ -27,15 +28,24 @@ pub(super) struct Minkowski {
 impl Demo for Minkowski {
     const NAME: &'static str = "minkowski";
     const PAPER: &'static str = "ph-geodesic-variation-wavefront, Figs 1.17 to 1.23";
-    const ABOUT: &'static str = "General offsets, frames and constant width with respect to an indicatrix";
+    const ABOUT: &'static str =
+        "General offsets, frames and constant width with respect to an indicatrix";
 
     fn run(&self, context: &mut Context) -> Result<()> {
         let ellipse = Ellipse { a: 1.6, b: 0.9 };
         let bumped = Bumped { height: self.bumps };
         let ellipse_arc = ellipse.arc(-0.2, 1.9)?;
         let bumped_arc = bumped.arc(-0.2, 1.2)?;
-        let first = Study { plane: MinkowskiPlane::new(Indicatrix::try_new(ellipse)?), arc: ellipse_arc, name: "ellipse" };
-        let second = Study { plane: MinkowskiPlane::new(Indicatrix::try_new(bumped)?), arc: bumped_arc, name: "class 8" };
+        let first = Study {
+            plane: MinkowskiPlane::new(Indicatrix::try_new(ellipse)?),
+            arc: ellipse_arc,
+            name: "ellipse",
+        };
+        let second = Study {
+            plane: MinkowskiPlane::new(Indicatrix::try_new(bumped)?),
+            arc: bumped_arc,
+            name: "class 8",
+        };
         let ovals = constant_width_arcs(bumped.dual()?.arcs(), 4.0, &moves())?;
 
         let mut plots = first.plots()?;
@@ -64,7 +74,11 @@ impl Demo for Minkowski {
         context.number("indicatrices", 2, Target::exactly(2));
         let exact = first.dual_offset_error()?.max(second.dual_offset_error()?);
         context.number("dual_offset_max_error", exact, Target::AtMost(1e-10));
-        context.number("width_max_deviation", width_deviation(&ovals, &bumped)?, Target::AtMost(1e-11));
+        context.number(
+            "width_max_deviation",
+            width_deviation(&ovals, &bumped)?,
+            Target::AtMost(1e-11),
+        );
         Ok(())
     }
 }
@@ -79,7 +93,11 @@ struct Study<S> {
 /// A curve that is drawn, with its first two derivatives.
 fn curve(t: f64) -> [DVec2; 3] {
     let (sine, cosine) = (1.3 * t).sin_cos();
-    [DVec2::new(2.4 * t, 0.9 * sine), DVec2::new(2.4, 1.17 * cosine), DVec2::new(0.0, -1.521 * sine)]
+    [
+        DVec2::new(2.4 * t, 0.9 * sine),
+        DVec2::new(2.4, 1.17 * cosine),
+        DVec2::new(0.0, -1.521 * sine),
+    ]
 }
 const SPAN: f64 = 2.1;
 
@@ -97,8 +115,18 @@ impl<S: Support> Study<S> {
     fn plots(&self) -> Result<Vec<Plot>> {
         let plane = &self.plane;
         let mut duality = Plot::geometry(&format!("U and U0: {}", self.name));
-        duality.trace(|psi| plane.indicatrix_point(psi), 0.0, TAU, BLUE.line().width(2.0));
-        duality.trace(|psi| plane.isoperimetrix_point(psi), 0.0, TAU, ORANGE.line().width(2.0));
+        duality.trace(
+            |psi| plane.indicatrix_point(psi),
+            0.0,
+            TAU,
+            BLUE.line().width(2.0),
+        );
+        duality.trace(
+            |psi| plane.isoperimetrix_point(psi),
+            0.0,
+            TAU,
+            ORANGE.line().width(2.0),
+        );
         for psi in [0.4, 2.0] {
             duality.arrow(DVec2::ZERO, plane.indicatrix_point(psi), BLUE.line());
             duality.arrow(DVec2::ZERO, plane.isoperimetrix_point(psi), ORANGE.line());
@@ -116,20 +144,35 @@ impl<S: Support> Study<S> {
         }
         let evolute = |t: f64| {
             let [point, derivative, second] = curve(t);
-            plane.evolute_point(point, derivative, second).unwrap_or(DVec2::NAN)
+            plane
+                .evolute_point(point, derivative, second)
+                .unwrap_or(DVec2::NAN)
         };
         bent.trace(evolute, 0.45, SPAN - 0.15, GREEN.line());
         let length = |t: f64| 0.4 + plane.arc_length(0.0, t, 2, |t| curve(t)[1]);
-        let involute = |t: f64| plane.involute_point(curve(t)[0], curve(t)[1], length(t)).unwrap_or(DVec2::NAN);
+        let involute = |t: f64| {
+            plane
+                .involute_point(curve(t)[0], curve(t)[1], length(t))
+                .unwrap_or(DVec2::NAN)
+        };
         bent.trace(involute, 0.0, 1.1, VERMILION.line());
 
         let mut offset = Plot::geometry("general offset");
         let moved = |distance: f64| {
-            move |t: f64| plane.offset_point(curve(t)[0], curve(t)[1], distance).unwrap_or(DVec2::NAN)
+            move |t: f64| {
+                plane
+                    .offset_point(curve(t)[0], curve(t)[1], distance)
+                    .unwrap_or(DVec2::NAN)
+            }
         };
         for i in 0..=8 {
             let centre = curve(SPAN * f64::from(i) / 8.0)[0];
-            offset.trace(|psi| centre + 0.45 * plane.indicatrix_point(psi), 0.0, TAU, MIST.line());
+            offset.trace(
+                |psi| centre + 0.45 * plane.indicatrix_point(psi),
+                0.0,
+                TAU,
+                MIST.line(),
+            );
         }
         offset.trace(|t| curve(t)[0], 0.0, SPAN, INK.line().width(2.0));
         offset.trace(moved(0.45), 0.0, SPAN, BLUE.line().width(2.0));
@@ -145,14 +188,21 @@ impl<S: Support> Study<S> {
             .enumerate()
             .map(|(i, line)| -2.0 * line.x + if i % 3 == 1 { 0.12 } else { 0.0 })
             .collect();
-        Ok(IsoperimetricArc::from_supports(self.arc.clone(), &supports)?)
+        Ok(IsoperimetricArc::from_supports(
+            self.arc.clone(),
+            &supports,
+        )?)
     }
 
     fn control_plot(&self) -> Result<Plot> {
         let mut plot = Plot::geometry("dual control of an IH curve and of its offset");
         let arc = self.isoperimetric_arc()?;
         let offset = arc.offset(DISTANCE)?;
-        for (curve, color) in [(arc.curve(), GREY), (offset.curve(), BLUE), (&self.arc, ORANGE)] {
+        for (curve, color) in [
+            (arc.curve(), GREY),
+            (offset.curve(), BLUE),
+            (&self.arc, ORANGE),
+        ] {
             for vector in curve.vectors() {
                 let normal = DVec2::new(vector.y, vector.z);
                 let foot = -vector.x * normal / normal.length_squared();
@@ -169,9 +219,13 @@ impl<S: Support> Study<S> {
     fn duality_error(&self) -> f64 {
         let errors = (0..360).map(|i| {
             let psi = PI * f64::from(i) / 180.0;
-            let (u, u0) = (self.plane.indicatrix_point(psi), self.plane.isoperimetrix_point(psi));
+            let (u, u0) = (
+                self.plane.indicatrix_point(psi),
+                self.plane.isoperimetrix_point(psi),
+            );
             let step = 1e-4;
-            let along = self.plane.isoperimetrix_point(psi + step) - self.plane.isoperimetrix_point(psi - step);
+            let along = self.plane.isoperimetrix_point(psi + step)
+                - self.plane.isoperimetrix_point(psi - step);
             let errors = [
                 u0.perp_dot(u) - 1.0,
                 self.plane.norm(u) - 1.0,
@@ -179,7 +233,9 @@ impl<S: Support> Study<S> {
                 // Second order in the step: the curvature's change over 1e-4 squared.
                 0.01 * along.normalize().perp_dot(u.normalize()),
             ];
-            errors.into_iter().fold(0.0, |most: f64, error| most.max(error.abs()))
+            errors
+                .into_iter()
+                .fold(0.0, |most: f64, error| most.max(error.abs()))
         });
         errors.fold(0.0, f64::max)
     }
@@ -189,16 +245,25 @@ impl<S: Support> Study<S> {
     fn sum_gap(&self, samples: u32) -> Result<f64> {
         let angle = |i: u32| TAU * f64::from(i) / f64::from(samples);
         let boundary: Vec<DVec2> = (0..samples).map(|i| body.contact(angle(i)).point).collect();
-        let unit: Vec<DVec2> = (0..samples).map(|i| self.plane.indicatrix_point(angle(i))).collect();
+        let unit: Vec<DVec2> = (0..samples)
+            .map(|i| self.plane.indicatrix_point(angle(i)))
+            .collect();
         let mut worst: f64 = 0.0;
         for i in 0..90 {
             let psi = TAU * (f64::from(i) + 0.37) / 90.0;
             let normal = DVec2::from_angle(psi);
-            let most = |points: &[DVec2]| points.iter().map(|p| p.dot(normal)).fold(f64::NEG_INFINITY, f64::max);
+            let most = |points: &[DVec2]| {
+                points
+                    .iter()
+                    .map(|p| p.dot(normal))
+                    .fold(f64::NEG_INFINITY, f64::max)
+            };
             let sum = most(&boundary) + DISTANCE * most(&unit);
             let contact = body.contact(psi);
             // The body runs counter-clockwise: its left is inside.
-            let offset = self.plane.offset_point(contact.point, contact.normal.perp(), -DISTANCE)?;
+            let offset =
+                self.plane
+                    .offset_point(contact.point, contact.normal.perp(), -DISTANCE)?;
             // A polygon of n points falls short of its curve by R (2π/n)² / 8.
             let radius = contact.radius + DISTANCE * self.plane.indicatrix().jet(psi).radius();
             let short = radius * (TAU / f64::from(samples)).powi(2) / 8.0;
@@ -215,7 +280,9 @@ impl<S: Support> Study<S> {
         for i in 0..=100 {
             let t = f64::from(i) / 100.0;
             let (here, there) = (arc.curve().contact(t)?, offset.curve().contact(t)?);
-            let moved = self.plane.offset_point(here.point, here.normal.perp(), -DISTANCE)?;
+            let moved = self
+                .plane
+                .offset_point(here.point, here.normal.perp(), -DISTANCE)?;
             worst = worst.max(moved.distance(there.point));
         }
         Ok(worst)
@@ -234,10 +301,19 @@ fn moves() -> Vec<Vec<f64>> {
 
 fn width_plot(ovals: &[IsoperimetricArc], bumped: &Bumped) -> Result<Plot> {
     let mut plot = Plot::geometry("constant Minkowski width");
-    plot.trace(|psi| 2.0 * bumped.contact(psi).point, 0.0, TAU, GREY.line().dashed());
+    plot.trace(
+        |psi| 2.0 * bumped.contact(psi).point,
+        0.0,
+        TAU,
+        GREY.line().dashed(),
+    );
     let mut joints = Vec::new();
     for arc in ovals {
-        let point = |t: f64| arc.curve().contact(t).map_or(DVec2::NAN, |contact| contact.point);
+        let point = |t: f64| {
+            arc.curve()
+                .contact(t)
+                .map_or(DVec2::NAN, |contact| contact.point)
+        };
         plot.trace(point, 0.0, 1.0, BLUE.line().width(2.5));
         joints.push(arc.curve().contact(0.0)?.point);
     }
@@ -251,7 +327,10 @@ fn width_deviation(ovals: &[IsoperimetricArc], bumped: &Bumped) -> Result<f64> {
     for (arc, opposite) in [(0, 2), (1, 3)] {
         for i in 0..=100 {
             let t = f64::from(i) / 100.0;
-            let (one, two) = (ovals[arc].curve().contact(t)?, ovals[opposite].curve().contact(t)?);
+            let (one, two) = (
+                ovals[arc].curve().contact(t)?,
+                ovals[opposite].curve().contact(t)?,
+            );
             let unit = bumped.jet(one.normal.to_angle()).support;
             worst = worst.max(((one.support + two.support) / unit / 4.0 - 1.0).abs());
         }

@@ -10,8 +10,8 @@ use std::f64::consts::{PI, TAU};
 use anyhow::Result;
 use glam::DVec2;
 use ph_curves::{
-    Antisymmetric, Cam, Contact, EvolutePolygon, HarmonicLift, PhArc, Rosette, SupportJet, TCubic, antipodal_arc,
-    hermite_arc, interpolate_constant_width,
+    Antisymmetric, Cam, Contact, EvolutePolygon, HarmonicLift, PhArc, Rosette, SupportJet, TCubic,
+    antipodal_arc, hermite_arc, interpolate_constant_width,
 };
 
 use crate::color::{BLUE, GREEN, GREY, INK, MIST, ORANGE, VERMILION};
@@ -29,7 +29,8 @@ pub(super) struct Ovals {
 impl Demo for Ovals {
     const NAME: &'static str = "ovals";
     const PAPER: &'static str = "ph-geodesic-variation-wavefront, Figs 1.11, 1.13, 1.15, 1.16";
-    const ABOUT: &'static str = "Ovals and rosettes of constant width, and a cam for a given motion";
+    const ABOUT: &'static str =
+        "Ovals and rosettes of constant width, and a cam for a given motion";
 
     fn run(&self, context: &mut Context) -> Result<()> {
         let triangle = polygon(&[(0.0, 0.0), (4.0, 0.0), (1.5, 3.0)])?;
@@ -40,8 +41,18 @@ impl Demo for Ovals {
         let moved = moved_lines()?;
 
         let plots = vec![
-            evolute_plot("an oval around a triangle, and its offsets", &triangle, &oval, &[0.0, 2.0, 4.0]),
-            evolute_plot("a rosette of index 3 around a pentagon", &pentagon, &rosette, &[0.0]),
+            evolute_plot(
+                "an oval around a triangle, and its offsets",
+                &triangle,
+                &oval,
+                &[0.0, 2.0, 4.0],
+            ),
+            evolute_plot(
+                "a rosette of index 3 around a pentagon",
+                &pentagon,
+                &rosette,
+                &[0.0],
+            ),
             interpolation_plot(&interpolating)?,
             lines_plot(&moved),
         ];
@@ -63,8 +74,9 @@ impl Demo for Ovals {
         )?;
         let frames = context.pick(60, 6);
         let width = context.pick(480, 160);
-        let images: Vec<_> =
-            (0..frames).map(|i| frame(&cam, TAU * f64::from(i) / f64::from(frames)).image(width)).collect();
+        let images: Vec<_> = (0..frames)
+            .map(|i| frame(&cam, TAU * f64::from(i) / f64::from(frames)).image(width))
+            .collect();
         context.animation(
             "figure-cam",
             &images,
@@ -77,44 +89,97 @@ impl Demo for Ovals {
     }
 }
 
-const PENTAGON: [(f64, f64); 5] = [(1.0, 0.0), (0.31, 0.96), (-0.79, 0.57), (-0.84, -0.61), (0.29, -0.90)];
+const PENTAGON: [(f64, f64); 5] = [
+    (1.0, 0.0),
+    (0.31, 0.96),
+    (-0.79, 0.57),
+    (-0.84, -0.61),
+    (0.29, -0.90),
+];
 
 /// The width of the interpolating oval, and its elements over half a turn.
 const WIDTH: f64 = 10.0;
 const ELEMENTS: [(f64, SupportJet); 3] = [
-    (0.3, SupportJet { support: 5.35, slope: 0.25, bend: -2.6 }),
-    (1.2, SupportJet { support: 4.80, slope: -0.20, bend: 2.2 }),
-    (2.4, SupportJet { support: 5.20, slope: 0.10, bend: -1.8 }),
+    (
+        0.3,
+        SupportJet {
+            support: 5.35,
+            slope: 0.25,
+            bend: -2.6,
+        },
+    ),
+    (
+        1.2,
+        SupportJet {
+            support: 4.80,
+            slope: -0.20,
+            bend: 2.2,
+        },
+    ),
+    (
+        2.4,
+        SupportJet {
+            support: 5.20,
+            slope: 0.10,
+            bend: -1.8,
+        },
+    ),
 ];
 
 fn polygon(vertices: &[(f64, f64)]) -> Result<EvolutePolygon> {
-    Ok(EvolutePolygon::try_new(&vertices.iter().map(|&(x, y)| DVec2::new(x, y)).collect::<Vec<_>>())?)
+    Ok(EvolutePolygon::try_new(
+        &vertices
+            .iter()
+            .map(|&(x, y)| DVec2::new(x, y))
+            .collect::<Vec<_>>(),
+    )?)
 }
 
 /// The recipe of Fig. 1.16: over half a turn three arcs of class 6 that keep the circle's jets at their ends and have the
 /// one free Bézier line in the middle moved; the other half is the inner offset at the width.
 fn moved_lines() -> Result<Rosette<7>> {
-    let circle = SupportJet { support: 0.5 * WIDTH, slope: 0.0, bend: 0.0 };
+    let circle = SupportJet {
+        support: 0.5 * WIDTH,
+        slope: 0.0,
+        bend: 0.0,
+    };
     let nodes = [(0.0, circle), (1.0, circle), (2.1, circle), (PI, circle)];
-    let half = nodes.windows(2).zip([0.5, -0.4, 0.45]).map(|(ends, shift)| {
-        let still: PhArc<6> = hermite_arc(ends[0], ends[1], &[])?;
-        let middle = bezier_mass::bernstein::elevate(still.coefficients())[3];
-        Ok(hermite_arc::<7>(ends[0], ends[1], &[middle + shift])?)
-    });
+    let half = nodes
+        .windows(2)
+        .zip([0.5, -0.4, 0.45])
+        .map(|(ends, shift)| {
+            let still: PhArc<6> = hermite_arc(ends[0], ends[1], &[])?;
+            let middle = bezier_mass::bernstein::elevate(still.coefficients())[3];
+            Ok(hermite_arc::<7>(ends[0], ends[1], &[middle + shift])?)
+        });
     let half = half.collect::<Result<Vec<_>>>()?;
-    let antipodes = half.iter().map(|arc| Ok(antipodal_arc(arc, WIDTH)?)).collect::<Result<Vec<_>>>()?;
-    Ok(Rosette::try_new(half.into_iter().chain(antipodes).collect())?)
+    let antipodes = half
+        .iter()
+        .map(|arc| Ok(antipodal_arc(arc, WIDTH)?))
+        .collect::<Result<Vec<_>>>()?;
+    Ok(Rosette::try_new(
+        half.into_iter().chain(antipodes).collect(),
+    )?)
 }
 
 fn outline<const N: usize>(rosette: &Rosette<N>) -> impl Fn(f64) -> DVec2 + '_ {
     |psi| rosette.contact(psi).point
 }
 
-fn evolute_plot(title: &str, polygon: &EvolutePolygon, rosette: &Rosette<4>, offsets: &[f64]) -> Plot {
+fn evolute_plot(
+    title: &str,
+    polygon: &EvolutePolygon,
+    rosette: &Rosette<4>,
+    offsets: &[f64],
+) -> Plot {
     let mut plot = Plot::geometry(title);
     for &distance in offsets {
         if let Ok(parallel) = rosette.offset(distance) {
-            let style = if distance == 0.0 { BLUE.line().width(2.0) } else { BLUE.alpha(0.45).line() };
+            let style = if distance == 0.0 {
+                BLUE.line().width(2.0)
+            } else {
+                BLUE.alpha(0.45).line()
+            };
             plot.trace(outline(&parallel), 0.0, parallel.period(), style);
         }
     }
@@ -122,7 +187,11 @@ fn evolute_plot(title: &str, polygon: &EvolutePolygon, rosette: &Rosette<4>, off
         plot.polyline(cubic.points(), MIST.line());
         plot.trace(|t| cubic.point(t), 0.0, 1.0, VERMILION.line());
     }
-    let cusps: Vec<DVec2> = polygon.cubics().iter().map(|cubic: &TCubic| cubic.points()[0]).collect();
+    let cusps: Vec<DVec2> = polygon
+        .cubics()
+        .iter()
+        .map(|cubic: &TCubic| cubic.points()[0])
+        .collect();
     plot.points(&cusps, Marker::Disc, VERMILION.fill());
     let joints: Vec<DVec2> = rosette.arcs().iter().map(|arc| arc.point(0.0)).collect();
     plot.points(&joints, Marker::Disc, BLUE.fill());
@@ -145,14 +214,18 @@ fn interpolation_plot(oval: &Rosette<6>) -> Result<Plot> {
         );
     }
     plot.trace(outline(oval), 0.0, TAU, BLUE.line().width(2.0));
-    let at: Vec<DVec2> = elements().map(|element| oval.contact(element.0 - ELEMENTS[0].0).point).collect();
+    let at: Vec<DVec2> = elements()
+        .map(|element| oval.contact(element.0 - ELEMENTS[0].0).point)
+        .collect();
     plot.points(&at, Marker::Disc, ORANGE.fill());
     Ok(plot)
 }
 
 /// The given elements and their antipodes.
 fn elements() -> impl Iterator<Item = (f64, SupportJet)> {
-    ELEMENTS.into_iter().chain(ELEMENTS.map(|(angle, jet)| (angle + PI, jet.antipode(WIDTH))))
+    ELEMENTS
+        .into_iter()
+        .chain(ELEMENTS.map(|(angle, jet)| (angle + PI, jet.antipode(WIDTH))))
 }
 
 fn lines_plot(oval: &Rosette<7>) -> Plot {
@@ -178,15 +251,39 @@ impl Ovals {
 }
 
 fn lift() -> Antisymmetric<HarmonicLift> {
-    let harmonics = vec![(0.0, 0.0), (0.0, 0.0), (0.38, 0.0), (0.0, 0.0), (0.0, 0.06), (0.0, 0.0), (0.02, 0.0)];
-    Antisymmetric { lift: HarmonicLift { mean: 5.0, harmonics }, width: WIDTH }
+    let harmonics = vec![
+        (0.0, 0.0),
+        (0.0, 0.0),
+        (0.38, 0.0),
+        (0.0, 0.0),
+        (0.0, 0.06),
+        (0.0, 0.0),
+        (0.02, 0.0),
+    ];
+    Antisymmetric {
+        lift: HarmonicLift {
+            mean: 5.0,
+            harmonics,
+        },
+        width: WIDTH,
+    }
 }
 
 fn lift_figure(cam: &Cam) -> Figure {
     use ph_curves::Lift;
     let mut plot = Plot::chart("motion of the frame", "angle of the cam (rad)", "lift");
-    plot.graph(|psi| lift().jet(psi)[0], 0.0, TAU, ORANGE.line().width(4.0).label("asked for"));
-    plot.graph(|psi| cam.profile.contact(psi).support, 0.0, TAU, BLUE.line().label("the cam"));
+    plot.graph(
+        |psi| lift().jet(psi)[0],
+        0.0,
+        TAU,
+        ORANGE.line().width(4.0).label("asked for"),
+    );
+    plot.graph(
+        |psi| cam.profile.contact(psi).support,
+        0.0,
+        TAU,
+        BLUE.line().label("the cam"),
+    );
     Figure::new(plot).aspect(2.2)
 }
 
@@ -195,51 +292,90 @@ fn frame(cam: &Cam, angle: f64) -> Figure {
     let turn = DVec2::from_angle(angle);
     let mut plot = Plot::geometry("");
     let reach = 0.62 * cam.width;
-    plot.view(DVec2::new(-1.25 * reach, -1.35 * reach), DVec2::new(1.25 * reach, 1.35 * reach));
-    let profile: Vec<DVec2> =
-        (0..400).map(|i| turn.rotate(cam.profile.contact(TAU * f64::from(i) / 400.0).point)).collect();
+    plot.view(
+        DVec2::new(-1.25 * reach, -1.35 * reach),
+        DVec2::new(1.25 * reach, 1.35 * reach),
+    );
+    let profile: Vec<DVec2> = (0..400)
+        .map(|i| turn.rotate(cam.profile.contact(TAU * f64::from(i) / 400.0).point))
+        .collect();
     let top = 0.25 * TAU - angle;
     let contact = |psi: f64| -> Contact { cam.profile.contact(psi) };
     let (upper, lower) = (contact(top).support, -contact(top + PI).support);
     let corners = |half: f64, below: f64, above: f64| {
-        [DVec2::new(-half, below), DVec2::new(half, below), DVec2::new(half, above), DVec2::new(-half, above)]
+        [
+            DVec2::new(-half, below),
+            DVec2::new(half, below),
+            DVec2::new(half, above),
+            DVec2::new(-half, above),
+        ]
     };
-    plot.polygon(&corners(1.08 * reach, lower - 0.6, upper + 0.6), GREY.fill());
+    plot.polygon(
+        &corners(1.08 * reach, lower - 0.6, upper + 0.6),
+        GREY.fill(),
+    );
     plot.polygon(&corners(reach, lower, upper), crate::color::WHITE.fill());
     plot.polygon(&profile, BLUE.alpha(0.25).fill().stroke(BLUE));
     plot.segment(DVec2::ZERO, turn * 0.3 * cam.width, INK.line());
     plot.points(&[DVec2::ZERO], Marker::Disc, INK.fill());
-    let touching = [turn.rotate(contact(top).point), turn.rotate(contact(top + PI).point)];
+    let touching = [
+        turn.rotate(contact(top).point),
+        turn.rotate(contact(top + PI).point),
+    ];
     plot.points(&touching, Marker::Disc, VERMILION.fill());
     Figure::new(plot).aspect(1.0)
 }
 
-fn report(context: &mut Context, oval: &Rosette<4>, rosette: &Rosette<4>, interpolating: &Rosette<6>, cam: &Cam) {
+fn report(
+    context: &mut Context,
+    oval: &Rosette<4>,
+    rosette: &Rosette<4>,
+    interpolating: &Rosette<6>,
+    cam: &Cam,
+) {
     let samples = context.pick(10_000, 1_000);
     let deviation = |(least, most): (f64, f64)| (most - least) / most;
-    let widths = [oval.width_range(samples), rosette.width_range(samples), interpolating.width_range(samples)];
+    let widths = [
+        oval.width_range(samples),
+        rosette.width_range(samples),
+        interpolating.width_range(samples),
+    ];
     let worst = widths.into_iter().map(deviation).fold(0.0, f64::max);
     context.number("width_max_deviation", worst, Target::AtMost(1e-11));
 
     let radii: Vec<f64> = oval.arcs().iter().flat_map(|arc| arc.end_radii()).collect();
-    let ratio = radii.iter().copied().fold(0.0, f64::max) / radii.iter().copied().fold(f64::INFINITY, f64::min);
+    let ratio = radii.iter().copied().fold(0.0, f64::max)
+        / radii.iter().copied().fold(f64::INFINITY, f64::min);
     context.number("radius_ratio", ratio, Target::AtLeast(1.5));
 
-    let barbier = |perimeter: f64, index: usize, width: f64| perimeter / (index as f64 * PI * width) - 1.0;
+    let barbier =
+        |perimeter: f64, index: usize, width: f64| perimeter / (index as f64 * PI * width) - 1.0;
     let perimeters = [
         barbier(oval.perimeter(), oval.index(), oval.width(0.0)),
         barbier(rosette.perimeter(), rosette.index(), rosette.width(0.0)),
         barbier(cam.profile.perimeter(), cam.profile.index(), cam.width),
     ];
-    let worst = perimeters.into_iter().fold(0.0, |most: f64, error| most.max(error.abs()));
-    context.number("perimeter_over_k_pi_d_minus_1", worst, Target::AtMost(1e-11));
+    let worst = perimeters
+        .into_iter()
+        .fold(0.0, |most: f64, error| most.max(error.abs()));
+    context.number(
+        "perimeter_over_k_pi_d_minus_1",
+        worst,
+        Target::AtMost(1e-11),
+    );
     context.number("rosette_index", rosette.index(), Target::exactly(3));
 
     let miss = |(angle, jet): (f64, SupportJet)| {
         let contact = interpolating.contact(angle - ELEMENTS[0].0);
         let slope = contact.point.dot(contact.normal.perp());
-        let errors = [contact.support - jet.support, slope - jet.slope, contact.radius - jet.radius()];
-        errors.into_iter().fold(0.0, |most: f64, error| most.max(error.abs()))
+        let errors = [
+            contact.support - jet.support,
+            slope - jet.slope,
+            contact.radius - jet.radius(),
+        ];
+        errors
+            .into_iter()
+            .fold(0.0, |most: f64, error| most.max(error.abs()))
     };
     let error = elements().map(miss).fold(0.0, f64::max);
     context.number("interpolation_max_error", error, Target::AtMost(1e-10));
