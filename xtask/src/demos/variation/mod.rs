@@ -182,7 +182,7 @@ fn subpolynomials() -> Result<Plot> {
     Ok(plot)
 }
 
-/// Three lines that cross the curve four times, twice, and not at all.
+/// Two lines that cross the curve twice and one that misses it.
 fn lines() -> Result<Vec<(Line, [DVec2; 2])>> {
     [
         [dvec2(-0.3, 2.92), dvec2(6.2, 3.02)],
@@ -207,7 +207,7 @@ fn draw_lines(
         let points: Vec<DVec2> = hits.iter().map(|hit| hit.point).collect();
         plot.points(&points, Marker::Disc, GREEN.fill());
         let counts = format!(
-            "Δ{}: hits {} ≤ bold {} ≤ polygon {}",
+            "Δ{}: {} ≤ {} ≤ {}",
             k + 1,
             hits.len(),
             refined(&coefficients)?,
@@ -229,7 +229,8 @@ fn curve_with_polygon(title: &str) -> Result<(Plot, Curve<'static>)> {
 
 fn inner_curve() -> Result<Plot> {
     let (k, l) = (1, 4);
-    let (mut plot, curve) = curve_with_polygon("polygon, inner curve P₁..P₄, polygon")?;
+    let (mut plot, curve) =
+        curve_with_polygon("polygon, inner curve P₁..P₄, polygon: hits ≤ bold ≤ polygon")?;
     let inner = Curve::polynomial(&CURVE[k..=l])?;
     let bold = VERMILION.line().width(3.0);
     plot.polyline(&CURVE[..=k], bold.clone());
@@ -249,7 +250,7 @@ fn inner_curve() -> Result<Plot> {
 
 fn pole_third() -> Result<Plot> {
     let pole = 1.0 / 3.0;
-    let (mut plot, curve) = curve_with_polygon("one pole at 1/3")?;
+    let (mut plot, curve) = curve_with_polygon("one pole at 1/3: hits ≤ bold ≤ polygon")?;
     let inner = polar_derivative(&CURVE, &pole)?;
     let [first, .., last] = CURVE;
     let bold: Vec<DVec2> = std::iter::once(first)
