@@ -49,11 +49,11 @@
 
 // Modules: replace your comment by your line, keep the empty lines, so that merges do not collide.
 
-// mod anisotropic;
+mod anisotropic;
 
 mod biquadratic;
 
-// mod caustics;
+mod caustics;
 
 mod cone;
 
@@ -105,9 +105,9 @@ use crate::demo::{Entry, entry};
 #[must_use]
 pub fn all() -> Vec<Entry> {
     vec![
-        // entry::<anisotropic::Anisotropic>(),
+        entry::<anisotropic::Anisotropic>(),
         entry::<biquadratic::BiquadraticDemo>(),
-        // entry::<caustics::Caustics>(),
+        entry::<caustics::Caustics>(),
         entry::<cone::Cone>(),
         entry::<cone_blend::ConeBlend>(),
         entry::<cyclide_to_cone::CyclideToCone>(),
