@@ -67,7 +67,6 @@ pub fn all() -> Vec<Entry> {
         entry::<reconstruct::Reconstruct>(),
         entry::<render::Render>(),
         entry::<variation::Variation>(),
-
         // entry::<wavefront::Wavefront>(),
     ]
 }

@@ -8,10 +8,12 @@ use std::hint::black_box;
 use anyhow::Result;
 use cavalier_contours::polyline::{PlineSource as _, PlineSourceMut as _, Polyline};
 use glam::{DVec2, dvec2};
-use kurbo::{BezPath, CubicBez, ParamCurve as _, ParamCurveArclen as _, ParamCurveNearest as _, Point};
+use kurbo::{
+    BezPath, CubicBez, ParamCurve as _, ParamCurveArclen as _, ParamCurveNearest as _, Point,
+};
 use ph_curves::{
-    Approximation, ArcSpline, CubicPath, FeedInterpolator, FeedRate, Hermite, PhSpline, PlaneCurve, SplineEnds,
-    approximate,
+    Approximation, ArcSpline, CubicPath, FeedInterpolator, FeedRate, Hermite, PhSpline, PlaneCurve,
+    SplineEnds, approximate,
 };
 use serde_json::{Value, json};
 
@@ -27,7 +29,8 @@ const SAMPLES: usize = 10;
 
 impl Bench for PhCurves {
     const NAME: &'static str = "ph-curves";
-    const ABOUT: &'static str = "Offsets, arc length and interpolation, against kurbo and cavalier_contours";
+    const ABOUT: &'static str =
+        "Offsets, arc length and interpolation, against kurbo and cavalier_contours";
 
     fn run(&self, timer: &Timer) -> Result<Value> {
         let mut rows = Vec::new();
@@ -51,17 +54,25 @@ impl Bench for PhCurves {
 /// The four curves: a cubic of moderate curvature, one with an inflection, a spiral of 20 spans, a closed loop of 40.
 fn curves() -> Result<Vec<(&'static str, CubicPath)>> {
     let cubic = |p: [(f64, f64); 4]| CubicPath::new(vec![p.map(DVec2::from)], false);
-    let spiral: Vec<DVec2> =
-        (0..23).map(|k| DVec2::from_angle(0.45 * f64::from(k)) * (12.0 + 1.75 * f64::from(k))).collect();
+    let spiral: Vec<DVec2> = (0..23)
+        .map(|k| DVec2::from_angle(0.45 * f64::from(k)) * (12.0 + 1.75 * f64::from(k)))
+        .collect();
     let wavy: Vec<DVec2> = (0..40)
         .map(|k| {
             let angle = std::f64::consts::TAU * f64::from(k) / 40.0;
-            DVec2::from_angle(angle) * (42.0 + 5.0 * (3.0 * angle).sin() + 3.0 * (7.0 * angle + 1.0).cos())
+            DVec2::from_angle(angle)
+                * (42.0 + 5.0 * (3.0 * angle).sin() + 3.0 * (7.0 * angle + 1.0).cos())
         })
         .collect();
     Ok(vec![
-        ("a", cubic([(0.0, 0.0), (20.0, 70.0), (80.0, 70.0), (100.0, 0.0)])?),
-        ("b", cubic([(0.0, 0.0), (40.0, 60.0), (60.0, -60.0), (100.0, 0.0)])?),
+        (
+            "a",
+            cubic([(0.0, 0.0), (20.0, 70.0), (80.0, 70.0), (100.0, 0.0)])?,
+        ),
+        (
+            "b",
+            cubic([(0.0, 0.0), (40.0, 60.0), (60.0, -60.0), (100.0, 0.0)])?,
+        ),
         ("c", CubicPath::uniform_bspline(&spiral, false)?),
         ("d", CubicPath::uniform_bspline(&wavy, true)?),
     ])
@@ -71,17 +82,36 @@ fn curves() -> Result<Vec<(&'static str, CubicPath)>> {
 fn degenerate() -> Result<Vec<(&'static str, CubicPath)>> {
     let cubic = |p: [(f64, f64); 4]| CubicPath::new(vec![p.map(DVec2::from)], false);
     Ok(vec![
-        ("cusp in the offset", cubic([(0.0, 0.0), (50.0, 2.0), (50.0, 2.0), (100.0, 0.0)])?),
-        ("zero derivative at the start", cubic([(0.0, 0.0), (0.0, 0.0), (60.0, 80.0), (100.0, 0.0)])?),
-        ("near-cusp", cubic([(0.0, 0.0), (100.0, 100.0001), (0.0, 100.0), (100.0, 0.0)])?),
-        ("interior cusp", cubic([(0.0, 0.0), (100.0, 100.0), (0.0, 100.0), (100.0, 0.0)])?),
-        ("collinear with turn-back", cubic([(0.0, 0.0), (150.0, 0.0), (-50.0, 0.0), (100.0, 0.0)])?),
+        (
+            "cusp in the offset",
+            cubic([(0.0, 0.0), (50.0, 2.0), (50.0, 2.0), (100.0, 0.0)])?,
+        ),
+        (
+            "zero derivative at the start",
+            cubic([(0.0, 0.0), (0.0, 0.0), (60.0, 80.0), (100.0, 0.0)])?,
+        ),
+        (
+            "near-cusp",
+            cubic([(0.0, 0.0), (100.0, 100.0001), (0.0, 100.0), (100.0, 0.0)])?,
+        ),
+        (
+            "interior cusp",
+            cubic([(0.0, 0.0), (100.0, 100.0), (0.0, 100.0), (100.0, 0.0)])?,
+        ),
+        (
+            "collinear with turn-back",
+            cubic([(0.0, 0.0), (150.0, 0.0), (-50.0, 0.0), (100.0, 0.0)])?,
+        ),
     ])
 }
 
 fn cubics(curve: &CubicPath) -> Vec<CubicBez> {
     let point = |p: DVec2| Point::new(p.x, p.y);
-    curve.cubics().iter().map(|c| CubicBez::new(point(c[0]), point(c[1]), point(c[2]), point(c[3]))).collect()
+    curve
+        .cubics()
+        .iter()
+        .map(|c| CubicBez::new(point(c[0]), point(c[1]), point(c[2]), point(c[3])))
+        .collect()
 }
 
 /// Points of the exact offset, to the right.
@@ -102,7 +132,12 @@ fn error_of(points: &[DVec2], distance: impl Fn(DVec2) -> f64) -> f64 {
 
 fn spline_error(points: &[DVec2], chains: &[ArcSpline]) -> f64 {
     let pieces: Vec<_> = chains.iter().flat_map(ArcSpline::pieces).collect();
-    error_of(points, |p| pieces.iter().map(|piece| piece.distance(p)).fold(f64::INFINITY, f64::min))
+    error_of(points, |p| {
+        pieces
+            .iter()
+            .map(|piece| piece.distance(p))
+            .fold(f64::INFINITY, f64::min)
+    })
 }
 
 fn path_error(points: &[DVec2], paths: &[BezPath]) -> f64 {
@@ -127,7 +162,13 @@ fn kurbo_offset(cubics: &[CubicBez], tolerance: f64) -> Vec<BezPath> {
         .collect()
 }
 
-fn offset_rows(timer: &Timer, name: &str, curve: &CubicPath, tolerance: f64, rows: &mut Vec<Value>) -> Result<()> {
+fn offset_rows(
+    timer: &Timer,
+    name: &str,
+    curve: &CubicPath,
+    tolerance: f64,
+    rows: &mut Vec<Value>,
+) -> Result<()> {
     let absolute = tolerance * SIZE;
     let peer = cubics(curve);
     let points = exact_offset(curve);
@@ -142,16 +183,29 @@ fn offset_rows(timer: &Timer, name: &str, curve: &CubicPath, tolerance: f64, row
             "ratio": ns / peer_ns,
         }));
     };
-    for (class, how) in [("class 3", Approximation::within(absolute)), ("class 9", Approximation::fewest(absolute))] {
+    for (class, how) in [
+        ("class 3", Approximation::within(absolute)),
+        ("class 9", Approximation::fewest(absolute)),
+    ] {
         let convert = || -> Result<ArcSpline, ph_curves::Error> {
             approximate(black_box(curve), &how)?.spline.offset(DISTANCE)
         };
         let offset = convert()?;
         let error = spline_error(&points, std::slice::from_ref(&offset));
-        row(&format!("convert and offset, {class}"), timer.nanoseconds(convert), offset.pieces().len(), error);
+        row(
+            &format!("convert and offset, {class}"),
+            timer.nanoseconds(convert),
+            offset.pieces().len(),
+            error,
+        );
         let spline = approximate(curve, &how)?.spline;
         let further = timer.nanoseconds(|| black_box(&spline).offset(DISTANCE));
-        row(&format!("further offset, {class}"), further, offset.pieces().len(), own_error(&spline, &offset));
+        row(
+            &format!("further offset, {class}"),
+            further,
+            offset.pieces().len(),
+            own_error(&spline, &offset),
+        );
     }
     Ok(())
 }
@@ -162,7 +216,8 @@ fn own_error(spline: &ArcSpline, offset: &ArcSpline) -> f64 {
     for (piece, moved) in spline.pieces().iter().zip(offset.pieces()) {
         for k in 0..=10 {
             let t = f64::from(k) / 10.0;
-            worst = worst.max((moved.point(t) - piece.point(t) - piece.normal(t) * DISTANCE).length());
+            worst =
+                worst.max((moved.point(t) - piece.point(t) - piece.normal(t) * DISTANCE).length());
         }
     }
     worst / SIZE
@@ -185,8 +240,11 @@ fn arcs(curve: &CubicPath, tolerance: f64) -> Polyline<f64> {
             let centre = 0.5 * (a + b) + sine * (radius * turn.cos());
             let off = [0.25, 0.75].iter().any(|s| {
                 let p = at(*s);
-                let distance =
-                    if turn.abs() < 1e-9 { (p - a).perp_dot(cosine).abs() } else { ((p - centre).length() - radius.abs()).abs() };
+                let distance = if turn.abs() < 1e-9 {
+                    (p - a).perp_dot(cosine).abs()
+                } else {
+                    ((p - centre).length() - radius.abs()).abs()
+                };
                 distance > tolerance
             });
             if off && to - from > 1e-9 {
@@ -209,10 +267,16 @@ fn arcs(curve: &CubicPath, tolerance: f64) -> Polyline<f64> {
 fn trimmed_row(timer: &Timer, name: &str, curve: &CubicPath, tolerance: f64) -> Result<Value> {
     let absolute = tolerance * SIZE;
     // Counter-clockwise loops are offset inwards.
-    let distance = if curve.is_closed() { -DISTANCE } else { DISTANCE };
+    let distance = if curve.is_closed() {
+        -DISTANCE
+    } else {
+        DISTANCE
+    };
     let how = Approximation::fewest(absolute);
     let ours = || -> Result<Vec<ArcSpline>, ph_curves::Error> {
-        approximate(black_box(curve), &how)?.spline.trimmed_offset(distance)
+        approximate(black_box(curve), &how)?
+            .spline
+            .trimmed_offset(distance)
     };
     let chains = ours()?;
     let theirs = || arcs(black_box(curve), absolute).parallel_offset(-distance);
@@ -226,11 +290,18 @@ fn trimmed_row(timer: &Timer, name: &str, curve: &CubicPath, tolerance: f64) -> 
         .collect();
     let spline = approximate(curve, &Approximation::fewest(1e-10 * SIZE))?.spline;
     let away = |p: DVec2| {
-        let nearest = on_curve.iter().map(|q| (*q - p).length()).fold(f64::INFINITY, f64::min);
+        let nearest = on_curve
+            .iter()
+            .map(|q| (*q - p).length())
+            .fold(f64::INFINITY, f64::min);
         if (nearest - DISTANCE).abs() > 0.5 {
             return (nearest - DISTANCE).abs();
         }
-        let exact = spline.pieces().iter().map(|piece| piece.distance(p)).fold(f64::INFINITY, f64::min);
+        let exact = spline
+            .pieces()
+            .iter()
+            .map(|piece| piece.distance(p))
+            .fold(f64::INFINITY, f64::min);
         (exact - DISTANCE).abs()
     };
     let mut error = 0.0_f64;
@@ -240,7 +311,10 @@ fn trimmed_row(timer: &Timer, name: &str, curve: &CubicPath, tolerance: f64) -> 
         }
     }
     let mut peer_error = 0.0_f64;
-    for (a, b) in outlines.iter().flat_map(|outline| outline.iter_segments().collect::<Vec<_>>()) {
+    for (a, b) in outlines
+        .iter()
+        .flat_map(|outline| outline.iter_segments().collect::<Vec<_>>())
+    {
         for vertex in [a, b] {
             peer_error = peer_error.max(away(dvec2(vertex.x, vertex.y)));
         }
@@ -257,13 +331,21 @@ fn trimmed_row(timer: &Timer, name: &str, curve: &CubicPath, tolerance: f64) -> 
 fn degenerate_row(timer: &Timer, name: &str, curve: &CubicPath) -> Result<Value> {
     let absolute = 1e-6 * SIZE;
     let how = Approximation::fewest(absolute);
-    let ours = || -> Result<ArcSpline, ph_curves::Error> { approximate(black_box(curve), &how)?.spline.offset(DISTANCE) };
+    let ours = || -> Result<ArcSpline, ph_curves::Error> {
+        approximate(black_box(curve), &how)?.spline.offset(DISTANCE)
+    };
     let offset = ours()?;
     let peer = cubics(curve);
     let paths = kurbo_offset(&peer, absolute);
-    let points: Vec<DVec2> = exact_offset(curve).into_iter().filter(|p| p.is_finite()).collect();
+    let points: Vec<DVec2> = exact_offset(curve)
+        .into_iter()
+        .filter(|p| p.is_finite())
+        .collect();
     let peer_error = path_error(&points, &paths);
-    let (ns, peer_ns) = (timer.nanoseconds(ours), timer.nanoseconds(|| kurbo_offset(black_box(&peer), absolute)));
+    let (ns, peer_ns) = (
+        timer.nanoseconds(ours),
+        timer.nanoseconds(|| kurbo_offset(black_box(&peer), absolute)),
+    );
     Ok(json!({
         "work": "convert and offset, class 9", "curve": name, "tolerance": 1e-6, "ns": ns,
         "pieces": offset.pieces().len(), "error": spline_error(&points, &[offset]),
@@ -303,7 +385,9 @@ fn length_rows(timer: &Timer) -> Result<Vec<Value>> {
             .map(|k| {
                 let middle = h * (f64::from(k) + 0.5);
                 let off = h * 0.5 / 3.0_f64.sqrt();
-                0.5 * h * (quintic.velocity(middle - off).length() + quintic.velocity(middle + off).length())
+                0.5 * h
+                    * (quintic.velocity(middle - off).length()
+                        + quintic.velocity(middle + off).length())
             })
             .sum()
     };
@@ -316,21 +400,48 @@ fn length_rows(timer: &Timer) -> Result<Vec<Value>> {
     };
     let arclen = timer.nanoseconds(|| cubic.subsegment(0.0..black_box(next_cubic())).arclen(1e-12));
     let inverse = timer.nanoseconds(|| length.parameter_at(black_box(next()) * total));
-    let inv_arclen = timer.nanoseconds(|| cubic.inv_arclen(black_box(next_cubic()) * peer_length, 1e-12));
+    let inv_arclen =
+        timer.nanoseconds(|| cubic.inv_arclen(black_box(next_cubic()) * peer_length, 1e-12));
     let back = length.up_to(length.parameter_at(0.37 * total)?) - 0.37 * total;
-    let peer_back = cubic.subsegment(0.0..cubic.inv_arclen(0.37 * peer_length, 1e-12)).arclen(1e-15) - 0.37 * peer_length;
+    let peer_back = cubic
+        .subsegment(0.0..cubic.inv_arclen(0.37 * peer_length, 1e-12))
+        .arclen(1e-15)
+        - 0.37 * peer_length;
     Ok(vec![
-        row("arc length", up_to, (length.up_to(0.6) - exact(0.6)).abs(), "kurbo arclen", arclen, 1e-16),
-        row("inverse arc length", inverse, back.abs(), "kurbo inv_arclen", inv_arclen, peer_back.abs()),
+        row(
+            "arc length",
+            up_to,
+            (length.up_to(0.6) - exact(0.6)).abs(),
+            "kurbo arclen",
+            arclen,
+            1e-16,
+        ),
+        row(
+            "inverse arc length",
+            inverse,
+            back.abs(),
+            "kurbo inv_arclen",
+            inv_arclen,
+            peer_back.abs(),
+        ),
     ])
 }
 
 /// Steps of the real-time interpolator along a C2 PH spline at constant feed.
 fn interpolator_row(timer: &Timer) -> Result<Value> {
-    let points = [dvec2(0.0, 0.0), dvec2(30.0, 20.0), dvec2(60.0, 10.0), dvec2(90.0, 40.0), dvec2(60.0, 70.0)];
+    let points = [
+        dvec2(0.0, 0.0),
+        dvec2(30.0, 20.0),
+        dvec2(60.0, 10.0),
+        dvec2(90.0, 40.0),
+        dvec2(60.0, 70.0),
+    ];
     let path = PhSpline::interpolate(
         &points,
-        SplineEnds::Clamped { start_derivative: dvec2(30.0, 10.0), end_derivative: dvec2(-30.0, 20.0) },
+        SplineEnds::Clamped {
+            start_derivative: dvec2(30.0, 10.0),
+            end_derivative: dvec2(-30.0, 20.0),
+        },
     )?;
     let feed = FeedRate::Constant(25.0);
     let period = 1e-3;

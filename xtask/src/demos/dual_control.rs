@@ -23,15 +23,25 @@ pub(super) struct DualControl {}
 
 impl Demo for DualControl {
     const NAME: &'static str = "dual-control";
-    const PAPER: &'static str = "ph-geodesic-variation-wavefront, Figs 1.1 to 1.5, 1.9, 1.10, 1.12, 1.14";
-    const ABOUT: &'static str = "Bézier and Farin lines, T-cubics, admissible elements, the width function";
+    const PAPER: &'static str =
+        "ph-geodesic-variation-wavefront, Figs 1.1 to 1.5, 1.9, 1.10, 1.12, 1.14";
+    const ABOUT: &'static str =
+        "Bézier and Farin lines, T-cubics, admissible elements, the width function";
 
     fn run(&self, context: &mut Context) -> Result<()> {
         let samples = context.pick(400, 60);
         let curve = dual_curve()?;
         let pair = pair()?;
-        context.number("dual_to_point_max_error", dual_to_point_error(&curve, &pair, samples)?, Target::AtMost(1e-12));
-        context.number("theorem4_max_error", theorem4_error(&pair)?, Target::AtMost(1e-10));
+        context.number(
+            "dual_to_point_max_error",
+            dual_to_point_error(&curve, &pair, samples)?,
+            Target::AtMost(1e-12),
+        );
+        context.number(
+            "theorem4_max_error",
+            theorem4_error(&pair)?,
+            Target::AtMost(1e-10),
+        );
         let plots = vec![
             dual_plot(&curve)?,
             triangle_plot()?,
@@ -51,7 +61,12 @@ impl Demo for DualControl {
 }
 
 fn dual_curve() -> Result<DualCurve> {
-    let lines = [(-1.0, 1.0, 0.1), (-1.5, 1.2, 0.8), (-1.2, 0.5, 1.3), (-1.1, -0.3, 1.0)];
+    let lines = [
+        (-1.0, 1.0, 0.1),
+        (-1.5, 1.2, 0.8),
+        (-1.2, 0.5, 1.3),
+        (-1.1, -0.3, 1.0),
+    ];
     let lines: Result<Vec<Line>, _> = lines.iter().map(|&(a, b, c)| Line::new(a, b, c)).collect();
     Ok(DualCurve::new(&lines?)?)
 }
@@ -74,7 +89,11 @@ fn pair() -> Result<G2Pair> {
 /// Largest distance between points of the dual form and of the exact rational point form.
 fn dual_to_point_error(curve: &DualCurve, pair: &G2Pair, samples: usize) -> Result<f64> {
     let mut worst = 0.0_f64;
-    for dual in [curve.clone(), DualCurve::from(&pair.arcs[0]), DualCurve::from(&pair.arcs[1])] {
+    for dual in [
+        curve.clone(),
+        DualCurve::from(&pair.arcs[0]),
+        DualCurve::from(&pair.arcs[1]),
+    ] {
         let points = dual.to_points()?;
         for k in 0..=samples {
             let t = k as f64 / samples as f64;
@@ -87,7 +106,10 @@ fn dual_to_point_error(curve: &DualCurve, pair: &G2Pair, samples: usize) -> Resu
 /// The centre of similarity of the end circles of an arc.
 fn centre(arc: &TQuartic) -> Result<DVec2> {
     let ends = [arc.contact(0.0), arc.contact(1.0)];
-    Ok(similarity_centre(ends.map(|end| end.centre()), ends.map(|end| end.radius))?)
+    Ok(similarity_centre(
+        ends.map(|end| end.centre()),
+        ends.map(|end| end.radius),
+    )?)
 }
 
 /// Largest distance of the centres of similarity from the inner Bézier lines.
@@ -96,7 +118,11 @@ fn theorem4_error(pair: &G2Pair) -> Result<f64> {
     for arc in &pair.arcs {
         let lines = arc.control_vectors();
         for vector in &lines[1..3] {
-            worst = worst.max(Line::try_from(*vector)?.signed_distance(centre(arc)?)?.abs());
+            worst = worst.max(
+                Line::try_from(*vector)?
+                    .signed_distance(centre(arc)?)?
+                    .abs(),
+            );
         }
     }
     Ok(worst)
@@ -117,16 +143,36 @@ fn dual_plot(curve: &DualCurve) -> Result<Plot> {
     for (k, vector) in curve.vectors().iter().enumerate() {
         let [a, b] = drawn_line(*vector, middle, 3.0)?;
         let style = GREY.line();
-        plot.segment(a, b, if k == 0 { style.label("Bézier lines") } else { style });
+        plot.segment(
+            a,
+            b,
+            if k == 0 {
+                style.label("Bézier lines")
+            } else {
+                style
+            },
+        );
     }
     for (k, vector) in curve.farin().iter().enumerate() {
         let [a, b] = drawn_line(*vector, middle, 3.0)?;
         let style = ORANGE.line().width(1.0).dashed();
-        plot.segment(a, b, if k == 0 { style.label("Farin lines") } else { style });
+        plot.segment(
+            a,
+            b,
+            if k == 0 {
+                style.label("Farin lines")
+            } else {
+                style
+            },
+        );
     }
     let point = |t: f64| curve.contact(t).map_or(DVec2::NAN, |contact| contact.point);
     plot.trace(point, 0.0, 1.0, BLUE.line().width(2.4).label("envelope"));
-    let vertices: Vec<DVec2> = curve.vertices().iter().map(|x| dvec2(x.y, x.z) / x.x).collect();
+    let vertices: Vec<DVec2> = curve
+        .vertices()
+        .iter()
+        .map(|x| dvec2(x.y, x.z) / x.x)
+        .collect();
     plot.points(&vertices, Marker::Ring, INK.line());
     plot.legend(Corner::BottomLeft);
     Ok(plot)
@@ -135,8 +181,14 @@ fn dual_plot(curve: &DualCurve) -> Result<Plot> {
 fn triangle_plot() -> Result<Plot> {
     let mut plot = Plot::geometry("T-cubics in triangles");
     for (corners, shift) in [
-        ([dvec2(0.0, 0.0), dvec2(2.0, 0.0), dvec2(1.4, 1.3)], DVec2::ZERO),
-        ([dvec2(0.0, 0.0), dvec2(2.0, 0.0), dvec2(3.5, 0.4)], dvec2(-0.6, -1.1)),
+        (
+            [dvec2(0.0, 0.0), dvec2(2.0, 0.0), dvec2(1.4, 1.3)],
+            DVec2::ZERO,
+        ),
+        (
+            [dvec2(0.0, 0.0), dvec2(2.0, 0.0), dvec2(3.5, 0.4)],
+            dvec2(-0.6, -1.1),
+        ),
     ] {
         let [a, b, c] = corners.map(|corner| corner + shift);
         let cubic = TCubic::in_triangle(a, b, c)?;
@@ -144,7 +196,11 @@ fn triangle_plot() -> Result<Plot> {
         plot.polyline(cubic.points(), ORANGE.line().width(1.2));
         plot.trace(|t| cubic.point(t), 0.0, 1.0, BLUE.line().width(2.4));
         plot.points(cubic.points(), Marker::Disc, INK.line());
-        for (point, name, side) in [(a, "A", Side::BelowLeft), (b, "B", Side::BelowRight), (c, "C", Side::Above)] {
+        for (point, name, side) in [
+            (a, "A", Side::BelowLeft),
+            (b, "B", Side::BelowRight),
+            (c, "C", Side::Above),
+        ] {
             plot.text(point, name, side);
         }
         plot.text(cubic.points()[1], "E", Side::Below);
@@ -157,7 +213,11 @@ fn element_plot(pair: &G2Pair) -> Result<Plot> {
     let mut plot = Plot::geometry("elements, evolute, quartics");
     let [start, end] = elements()?;
     for (element, name, side) in [(start, "P₀", Side::Right), (end, "P₁", Side::Above)] {
-        plot.circle(element.centre(), element.radius(), GREY.line().width(1.0).dotted());
+        plot.circle(
+            element.centre(),
+            element.radius(),
+            GREY.line().width(1.0).dotted(),
+        );
         plot.segment(element.centre(), element.point(), GREY.line());
         plot.point(element.point(), name, side, INK.line());
     }
@@ -167,7 +227,11 @@ fn element_plot(pair: &G2Pair) -> Result<Plot> {
         plot.trace(|t| evolute.point(t), 0.0, 1.0, color.line());
     }
     plot.point(pair.joint.point(), "", Side::Above, GREEN.line());
-    plot.segment(pair.joint.centre(), pair.joint.point(), GREEN.line().width(1.0).dashed());
+    plot.segment(
+        pair.joint.centre(),
+        pair.joint.point(),
+        GREEN.line().width(1.0).dashed(),
+    );
     Ok(plot)
 }
 
@@ -177,7 +241,11 @@ fn theorem4_plot(pair: &G2Pair) -> Result<Plot> {
     let s = centre(arc)?;
     for t in [0.0, 1.0] {
         let contact = arc.contact(t);
-        plot.circle(contact.centre(), contact.radius, GREY.line().width(1.0).dotted());
+        plot.circle(
+            contact.centre(),
+            contact.radius,
+            GREY.line().width(1.0).dotted(),
+        );
     }
     let lines = arc.control_vectors();
     for (k, vector) in lines.iter().enumerate() {
@@ -217,8 +285,18 @@ fn width_plot() -> Result<Plot> {
     let rosette = polygon.rosette(width)?;
     let (a, b) = (0.62 * width, 0.4 * width);
     let ellipse = |psi: f64| 2.0 * (a * psi.cos()).hypot(b * psi.sin());
-    plot.graph(ellipse, 0.0, std::f64::consts::TAU, VERMILION.line().label("ellipse"));
-    plot.graph(|psi| rosette.width(psi), 0.0, std::f64::consts::TAU, BLUE.line().label("oval"));
+    plot.graph(
+        ellipse,
+        0.0,
+        std::f64::consts::TAU,
+        VERMILION.line().label("ellipse"),
+    );
+    plot.graph(
+        |psi| rosette.width(psi),
+        0.0,
+        std::f64::consts::TAU,
+        BLUE.line().label("oval"),
+    );
     plot.legend(Corner::BottomRight);
     Ok(plot)
 }

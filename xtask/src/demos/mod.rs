@@ -113,31 +113,21 @@ pub fn all() -> Vec<Entry> {
         entry::<cyclide_to_cone::CyclideToCone>(),
         entry::<cyclide_zoo::CyclideZoo>(),
         entry::<dual_control::DualControl>(),
-
         entry::<geodesic::Geodesic>(),
-
         entry::<geodesic_loop::GeodesicLoop>(),
-
         entry::<geodesic_patch::GeodesicPatch>(),
-
         // entry::<geodesic_surface::GeodesicSurface>(),
         entry::<mass_points::MassPoints>(),
         entry::<minkowski::Minkowski>(),
-
         entry::<ovals::Ovals>(),
         entry::<pencils::Pencils>(),
         entry::<ribbon::Ribbon>(),
-
         entry::<ribbon_surface::RibbonSurface>(),
-
         entry::<rrmf_tube::RrmfTube>(),
         entry::<seahorse::Seahorse>(),
         entry::<straightest::Straightest>(),
-
         entry::<t_quartic::TQuartic>(),
-
         entry::<variation::Variation>(),
-
         // entry::<wavefront::Wavefront>(),
 
         // entry::<wavefront_3d::Wavefront3d>(),
