@@ -39,7 +39,7 @@ impl EvolutePolygon {
                 needed: 3,
             });
         }
-        if count % 2 == 0 {
+        if count.is_multiple_of(2) {
             return Err(Error::EvenPolygon { vertices: count });
         }
         if vertices.iter().any(|vertex| !vertex.is_finite()) {
@@ -206,7 +206,7 @@ fn exterior_legs(lengths: &[f64]) -> Vec<f64> {
 }
 
 fn parity(j: usize) -> f64 {
-    if j % 2 == 0 { 1.0 } else { -1.0 }
+    if j.is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
 /// The involute with the start radius `radius`, its normal along the travel of the cubic or against it.

@@ -401,13 +401,13 @@ impl CyclicTridiagonal {
     fn eliminate(&self, count: usize, right: &[DVec2]) -> Vec<DVec2> {
         let mut ratios = Vec::with_capacity(count);
         let mut solution: Vec<DVec2> = Vec::with_capacity(count);
-        for i in 0..count {
+        for (i, &value) in right.iter().enumerate().take(count) {
             let (pivot, value) = match (ratios.last(), solution.last()) {
                 (Some(&ratio), Some(&previous)) => (
                     self.diagonal[i] - self.below[i].rotate(ratio),
-                    right[i] - self.below[i].rotate(previous),
+                    value - self.below[i].rotate(previous),
                 ),
-                _ => (self.diagonal[i], right[i]),
+                _ => (self.diagonal[i], value),
             };
             ratios.push(complex::divide(self.above[i], pivot));
             solution.push(complex::divide(value, pivot));

@@ -198,7 +198,9 @@ impl Front {
             .collect();
         let turn = |i: usize| elements[i].normal.perp_dot(elements[i + 1].normal);
         let sense = turn(0).signum();
-        if let Some(index) = (0..elements.len() - 1).find(|&i| !(sense * turn(i) > 0.0)) {
+        if let Some(index) =
+            (0..elements.len() - 1).find(|&i| (sense * turn(i)).is_nan() || sense * turn(i) <= 0.0)
+        {
             return Err(Error::NotMonotone { index: index + 1 });
         }
         for start in (0..elements.len() - 1).step_by(stride) {

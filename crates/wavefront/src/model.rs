@@ -310,7 +310,7 @@ impl Model {
     ) -> bool {
         let velocity = self.media[layer].group_velocity(ray.slowness);
         let travel = velocity.dot(point - ray.point) / velocity.length_squared();
-        if !(travel > 0.0) {
+        if travel.is_nan() || travel <= 0.0 {
             return false;
         }
         let margin = SELF_IMPACT * self.size() / velocity.length();

@@ -378,7 +378,7 @@ impl<'m> Sweep<'m> {
     ) {
         let mesh = self.mesh;
         let twin = mesh.twins()[edge as usize];
-        if twin == NONE || !(to > from) {
+        if twin == NONE || to.is_nan() || to <= from {
             return;
         }
         let length = mesh.length(edge);
@@ -467,7 +467,6 @@ impl<'m> Sweep<'m> {
                     end: old.start.min(window.end),
                     ..window
                 });
-                rest = old.start;
             }
             let (low, high) = (old.start.max(window.start), old.end.min(window.end));
             self.share(id, &window, low, high, &mut born, &mut merged);

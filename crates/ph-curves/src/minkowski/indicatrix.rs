@@ -251,7 +251,7 @@ impl<S: Support> Indicatrix<S> {
         let step = TAU / CHECKED_ANGLES as f64;
         let fine =
             worst(&mut (-16..=16).map(|i| coarse.0 + step * f64::from(i) / 16.0)).unwrap_or(coarse);
-        if !(fine.1 > 0.0) {
+        if fine.1.is_nan() || fine.1 <= 0.0 {
             return Err(Error::NotConvex {
                 angle: fine.0,
                 radius: fine.1,
@@ -325,7 +325,7 @@ impl Bumped {
     ///
     /// [`Error::NotConvex`] unless `|height| < 1/15`.
     pub fn dual(&self) -> Result<DualIndicatrix, Error> {
-        if !(self.height.abs() < 1.0 / 15.0) {
+        if self.height.is_nan() || self.height.abs() >= 1.0 / 15.0 {
             return Err(Error::NotConvex {
                 angle: 0.0,
                 radius: 1.0 - 15.0 * self.height.abs(),

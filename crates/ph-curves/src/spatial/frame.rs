@@ -41,7 +41,7 @@ impl Frame {
     /// The images of `i`, `j`, `k` under `A . A*`, normalised.
     pub(super) fn of_quaternion(a: Quaternion) -> Result<Self, Error> {
         let norm = a.norm_squared();
-        if !(norm > 0.0) {
+        if norm.is_nan() || norm <= 0.0 {
             return Err(Error::ZeroDirection {
                 what: "tangent where the speed vanishes",
             });

@@ -47,7 +47,7 @@ fn tube(
             what: "radius of a tube",
         });
     }
-    if !(radius > 0.0) || !is_regular(curve, radius) {
+    if radius <= 0.0 || !is_regular(curve, radius) {
         return Err(Error::TubeTooThick {
             radius,
             least_radius: least_radius_of_curvature(curve),
