@@ -279,8 +279,8 @@ impl EndVectorProblem {
 /// };
 /// let surface = TwoCurveSurface::new([helix(0.3, 0.0)?, helix(-0.2, 1.5)?])?
 ///     .smoothed(LocalCriterion::Bending, Default::default())?;
-/// // Two geodesics of the unit cylinder: the surface is nearly that cylinder.
-/// assert!((surface.point(0.5, 0.5).truncate().length() - 1.0).abs() < 1e-3);
+/// // Two geodesics of the unit cylinder: the surface stays near that cylinder.
+/// assert!((surface.point(0.5, 0.5).truncate().length() - 1.0).abs() < 1e-2);
 /// # Ok::<(), reconstruct::Error>(())
 /// ```
 #[derive(Clone, Debug)]
