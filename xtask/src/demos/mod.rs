@@ -97,7 +97,7 @@ mod variation;
 
 // mod wavefront;
 
-// mod wavefront_3d;
+mod wavefront_3d;
 
 use crate::demo::{Entry, entry};
 
@@ -130,7 +130,7 @@ pub fn all() -> Vec<Entry> {
         entry::<variation::Variation>(),
         // entry::<wavefront::Wavefront>(),
 
-        // entry::<wavefront_3d::Wavefront3d>(),
+        entry::<wavefront_3d::Wavefront3d>(),
     ]
 }
 

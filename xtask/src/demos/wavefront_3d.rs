@@ -1,0 +1,271 @@
+//! A front in space: offsets of an ellipsoid, reflected by a bowl.
+//!
+//! What one sees: upper left an orange ellipsoid, the front at time zero. Four square sheets, blue and growing, are parts of
+//! its offsets on their way down into a grey bowl, a paraboloid. To the right, four sheets in red tones rise again: they
+//! shrink, fold over each other along sharp edges where they pass the caustic, and open again turned over. Thin grey tubes
+//! are the four corner rays and the middle one.
+
+use anyhow::Result;
+use glam::{DMat3, DVec3, dvec3};
+use wavefront::{DualSurface, Mirror, SampledSurface, SpacePoint};
+
+use crate::color::{BLUE, Color, GREY, ORANGE, SKY, VERMILION, YELLOW};
+use crate::demo::{Context, Demo};
+use crate::mesh::Mesh;
+use crate::render::{Material, Scene};
+use crate::report::Target;
+
+#[derive(clap::Args, Debug)]
+pub(super) struct Wavefront3d {
+    /// Half the width of the beam at unit distance
+    #[arg(long, default_value_t = 0.32)]
+    opening: f64,
+}
+
+/// The ellipsoid from which the wave starts: its centre and half axes along the coordinates.
+const CENTRE: DVec3 = dvec3(-2.3, 0.0, 2.6);
+const AXES: DVec3 = dvec3(0.5, 0.42, 0.34);
+/// The bowl is z = BEND (x² + y²).
+const BEND: f64 = 0.2;
+
+impl Demo for Wavefront3d {
+    const NAME: &'static str = "wavefront-3d";
+    const PAPER: &'static str = "ph-geodesic-variation-wavefront, Chapter 5, continued into space";
+    const ABOUT: &'static str = "Offsets of an ellipsoid and their reflection in a bowl";
+
+    fn run(&self, context: &mut Context) -> Result<()> {
+        let front = DualSurface::ellipsoid(
+            CENTRE,
+            [AXES.x * DVec3::X, AXES.y * DVec3::Y, AXES.z * DVec3::Z],
+        )?;
+        let count = context.pick(60, 16);
+        context.number(
+            "offset_max_error",
+            offset_error(&front, count),
+            Target::AtMost(1e-12),
+        );
+        let reflected = self
+            .bowl_error(&front, count)?
+            .max(plane_error(&front, count)?)
+            .max(focus_error(count)?);
+        context.number("reflected_max_error", reflected, Target::AtMost(1e-9));
+        let coarse = self
+            .beam(&front, 2 * count)?
+            .reflect(&bowl()?)?
+            .normality_defect();
+        let fine = self
+            .beam(&front, 4 * count)?
+            .reflect(&bowl()?)?
+            .normality_defect();
+        // The theorem of Malus and Dupin: the reflected rays are normal to a surface, so the defect is of the second order.
+        context.number(
+            "normality_order",
+            (coarse / fine).log2(),
+            Target::AtLeast(1.8),
+        );
+        self.draw(context, &front)
+    }
+}
+
+fn bowl() -> Result<Mirror> {
+    let form = DMat3::from_diagonal(dvec3(BEND, BEND, 0.0));
+    Ok(Mirror::quadric(form, dvec3(0.0, 0.0, -0.5), 0.0)?)
+}
+
+/// Normals all over the sphere, those of a spiral.
+fn normals(count: usize) -> impl Iterator<Item = DVec3> {
+    (0..count * count).map(move |i| {
+        let z = 1.0 - 2.0 * (i as f64 + 0.5) / (count * count) as f64;
+        let (sin, cos) = (2.399_963 * i as f64).sin_cos();
+        dvec3((1.0 - z * z).sqrt() * cos, (1.0 - z * z).sqrt() * sin, z)
+    })
+}
+
+/// The distance of a point outside from an ellipsoid with its axes along the coordinates.
+///
+/// The foot is `a² x / (a² + t)` in each coordinate, with the root t of the ellipsoid's equation there, by bisection.
+fn distance(from_centre: DVec3, axes: DVec3) -> f64 {
+    let squares = axes * axes;
+    let excess = |t: f64| (axes * from_centre / (squares + DVec3::splat(t))).length_squared() - 1.0;
+    let (mut low, mut high) = (0.0, (axes * from_centre).length());
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if excess(middle) > 0.0 {
+            low = middle
+        } else {
+            high = middle
+        }
+    }
+    let foot = squares * from_centre / (squares + DVec3::splat(0.5 * (low + high)));
+    from_centre.distance(foot)
+}
+
+/// Points of an offset have its distance from the ellipsoid.
+fn offset_error(front: &DualSurface, count: usize) -> f64 {
+    [0.1, 1.0, 5.0].into_iter().fold(0.0, |worst: f64, apart| {
+        let offset = front.offset(apart);
+        let error = |n: DVec3| (distance(offset.point(n) - CENTRE, AXES) / apart - 1.0).abs();
+        normals(count).map(error).fold(worst, f64::max)
+    })
+}
+
+/// Sampled rays, reflected in a plane and carried on, against the distance from the ellipsoid's mirror image.
+fn plane_error(front: &DualSurface, count: usize) -> Result<f64> {
+    let run = 7.0;
+    let mirror = Mirror::plane(DVec3::Z, 0.0)?;
+    let rays = front.sample(count, count, |u, v| dvec3(u - 0.5, v - 0.5, -1.0))?;
+    let image = front.reflect(DVec3::Z, 0.0)?.offset(run);
+    let reflected = rays.reflect(&mirror)?.offset(run);
+    let error = |ray: &SpacePoint| {
+        let from_image = ray.point - CENTRE * dvec3(1.0, 1.0, -1.0);
+        let exact = image.point(ray.normal).distance(ray.point) / run;
+        exact.max((distance(from_image, AXES) / run - 1.0).abs())
+    };
+    Ok(reflected.rays().iter().map(error).fold(0.0, f64::max))
+}
+
+/// A point source in a focus of an ellipsoid: everything is in the other one when the long axis has been run.
+fn focus_error(count: usize) -> Result<f64> {
+    let (long, short) = (2.0_f64, 1.5_f64);
+    let focus = DVec3::X * (long * long - short * short).sqrt();
+    let inverse = dvec3(long, short, short).powf(-2.0);
+    let mirror = Mirror::quadric(DMat3::from_diagonal(inverse), DVec3::ZERO, -1.0)?;
+    let source = DualSurface::sphere(-focus, 0.0)?;
+    let rays = SampledSurface::new(count, count, |u, v| {
+        let normal = dvec3(2.0 * u - 1.0, 2.0 * v - 1.0, 0.3).try_normalize()?;
+        Some(SpacePoint {
+            point: source.point(normal),
+            normal,
+        })
+    })?;
+    let arrived = rays.reflect(&mirror)?.offset(2.0 * long);
+    Ok(arrived
+        .rays()
+        .iter()
+        .map(|ray| ray.point.distance(focus) / long)
+        .fold(0.0, f64::max))
+}
+
+impl Wavefront3d {
+    /// The part of the front that runs to the bottom of the bowl.
+    fn beam(&self, front: &DualSurface, count: usize) -> Result<SampledSurface> {
+        let middle = -CENTRE.normalize();
+        let (across, up) = (DVec3::Y, middle.cross(DVec3::Y));
+        let normal = |u: f64, v: f64| {
+            middle + self.opening * ((2.0 * u - 1.0) * across + (2.0 * v - 1.0) * up)
+        };
+        Ok(front.sample(count, count, normal)?)
+    }
+
+    /// The front behind the bowl against Fermat's principle: of all paths over the bowl the one that was found is
+    /// stationary, and as long as the front has run. The paths start on the ellipsoid by its distance function.
+    fn bowl_error(&self, front: &DualSurface, count: usize) -> Result<f64> {
+        // When all rays have left the bowl, and when they are long past their caustic.
+        let mut largest = 0.0_f64;
+        let beam = self.beam(front, count)?;
+        let at_zero = beam.reflect(&bowl()?)?;
+        for run in [5.2, 8.0] {
+            let reflected = at_zero.offset(run);
+            for (start, end) in beam.rays().iter().zip(reflected.rays()) {
+                let hit = bowl_hit(*start);
+                let path = |x: f64, y: f64| {
+                    let place = dvec3(x, y, BEND * (x * x + y * y));
+                    distance(place - CENTRE, AXES) + place.distance(end.point)
+                };
+                let step = 1e-4;
+                let slope = |dx: f64, dy: f64| {
+                    let difference = |h: f64| {
+                        path(hit.x + h * dx, hit.y + h * dy) - path(hit.x - h * dx, hit.y - h * dy)
+                    };
+                    // Fourth order: the step's error is far below rounding over the step.
+                    (8.0 * difference(step) - difference(2.0 * step)) / (12.0 * step)
+                };
+                let stationary = slope(1.0, 0.0).abs().max(slope(0.0, 1.0).abs());
+                largest = largest
+                    .max(stationary)
+                    .max((path(hit.x, hit.y) / run - 1.0).abs());
+            }
+        }
+        Ok(largest)
+    }
+
+    fn draw(&self, context: &mut Context, front: &DualSurface) -> Result<()> {
+        let count = context.pick(180, 48);
+        let incoming = self.beam(front, count)?;
+        let reflected = incoming.reflect(&bowl()?)?;
+        let scene = |tolerance: f64| -> Result<Scene> {
+            let mut scene = Scene::new();
+            let radius = 1.9;
+            let wall = |u: f64, v: f64| {
+                let (sin, cos) = (std::f64::consts::TAU * u).sin_cos();
+                let (x, y) = (radius * v * cos, radius * v * sin);
+                let normal = dvec3(-2.0 * BEND * x, -2.0 * BEND * y, 1.0).normalize();
+                (dvec3(x, y, BEND * (x * x + y * y)), normal)
+            };
+            scene.add(
+                Mesh::surface(wall, |_| tolerance),
+                Material::glossy(GREY.mix(Color::hex(0xffffff), 0.45)),
+            )?;
+            let body = |u: f64, v: f64| {
+                let ((sin, cos), (height, width)) = (
+                    (std::f64::consts::TAU * u).sin_cos(),
+                    (std::f64::consts::PI * (v - 0.5)).sin_cos(),
+                );
+                let normal = dvec3(width * cos, width * sin, height);
+                (front.point(normal), normal)
+            };
+            scene.add(Mesh::surface(body, |_| tolerance), Material::glossy(ORANGE))?;
+            for (i, run) in [0.75, 1.3, 1.85, 2.4].into_iter().enumerate() {
+                let color = SKY.mix(BLUE, i as f32 / 3.0);
+                scene.add(sheet(&incoming.offset(run)), Material::glossy(color))?;
+            }
+            for (i, run) in [4.2, 5.1, 6.0, 6.9].into_iter().enumerate() {
+                let color = YELLOW.mix(VERMILION, 0.35 + 0.65 * i as f32 / 3.0);
+                scene.add(sheet(&reflected.offset(run)), Material::glossy(color))?;
+            }
+            for index in [0, count - 1, count * (count - 1), count * count - 1] {
+                let (start, end) = (incoming.rays()[index], reflected.offset(6.9).rays()[index]);
+                let path = [start.point, bowl_hit(start), end.point];
+                scene.add(Mesh::tube(&path, 0.012, false), Material::matte(GREY))?;
+            }
+            scene.ground_below();
+            Ok(scene)
+        };
+        let camera = scene(0.02)?.camera(dvec3(0.25, -1.0, 0.42), context.aspect());
+        let tolerance = camera.tolerance(DVec3::ZERO, context.height());
+        context.render(
+            "render",
+            &scene(tolerance)?,
+            &camera,
+            "An ellipsoid's offsets (blue) run into a bowl; the reflected fronts (yellow to red) pass their caustic.",
+            "An orange ellipsoid, blue curved square sheets descending to a grey bowl, warm-coloured sheets rising from it.",
+        )
+    }
+}
+
+/// Where a ray meets the bowl, by bisection.
+fn bowl_hit(ray: SpacePoint) -> DVec3 {
+    let above = |s: f64| {
+        let p = ray.point + s * ray.normal;
+        p.z - BEND * (p.x * p.x + p.y * p.y)
+    };
+    let (mut low, mut high) = (0.0, 10.0);
+    for _ in 0..80 {
+        let middle = 0.5 * (low + high);
+        if above(middle) > 0.0 {
+            low = middle
+        } else {
+            high = middle
+        }
+    }
+    ray.point + 0.5 * (low + high) * ray.normal
+}
+
+fn sheet(surface: &SampledSurface) -> Mesh {
+    let (points, normals) = surface
+        .rays()
+        .iter()
+        .map(|ray| (ray.point, ray.normal))
+        .unzip();
+    Mesh::from_rows(surface.columns(), points, normals)
+}
