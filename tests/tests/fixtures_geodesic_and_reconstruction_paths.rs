@@ -21,7 +21,6 @@ fn fixtures_geodesic_and_reconstruction_paths() {
         .iter()
         // Items e to j are reconstruction, judged by a test of their own.
         .filter(|case| ["a", "b", "c", "d"].contains(&text(case, "item").as_str()))
-        .filter(|case| !exact::PENDING.contains(&text(case, "kind").as_str()))
         .map(|case| {
             let tolerance = Tolerance::ComponentwiseMax(case["tol"].as_f64().unwrap_or(0.0));
             Case::new(&text(case, "name"), &text(case, "kind"), &case["input"])

@@ -261,4 +261,18 @@ pub enum Error {
         /// What the reader says.
         reason: String,
     },
+    /// A parameter, or a pair of them, outside the domain.
+    #[error("({u}, {v}) lies outside the domain")]
+    OutsideDomain {
+        /// First parameter.
+        u: f64,
+        /// Second parameter.
+        v: f64,
+    },
+    /// A refinement that would need too much memory.
+    #[error("the next refinement has {faces} faces")]
+    TooLarge {
+        /// Number of faces.
+        faces: usize,
+    },
 }

@@ -90,6 +90,7 @@ mod search;
 pub mod shapes;
 mod straightest;
 mod strip;
+mod surface;
 mod surface_point;
 mod torus;
 mod unfold;
@@ -111,6 +112,10 @@ pub use path::{CERTIFIED_ANGLE, CERTIFIED_STRAIGHTNESS, Certificate, GeodesicPat
 pub use pivot::Update;
 pub use straightest::{AtBoundary, Stop, Straightest, Trace};
 pub use strip::Side;
+pub use surface::{
+    ClosedTorusGeodesic, LevelPath, PatchLevels, SmoothSurface, SurfaceJet, SurfaceRay,
+    TorusSurface, closed_torus_geodesic, trace_smooth,
+};
 pub use surface_point::{OUTSIDE, SNAP, SurfacePoint};
 pub use torus::TorusClasses;
 pub use unfold::Unfolding;

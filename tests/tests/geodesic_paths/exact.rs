@@ -1,14 +1,12 @@
-//! Exact distances, smooth surfaces and surfaces of revolution: kinds of cases that are not answered yet.
+//! Exact distances, smooth surfaces and surfaces of revolution.
 
-use geodesic::{Mesh, SurfacePoint, Sweep};
-use integration_tests::Case;
-
-/// Kinds that [`answer`] does not know yet.
-pub(crate) const PENDING: [&str; 3] = [
-    "parametric_geodesic",
-    "torus_closed_geodesic",
-    "surface_ivp",
-];
+use bezier_mass::{BezierPatch, MassPoint};
+use geodesic::glam::{DVec2, DVec3};
+use geodesic::{
+    Error, Mesh, PatchLevels, SmoothSurface, SurfacePoint, SurfaceRay, Sweep, TorusSurface,
+    closed_torus_geodesic, trace_smooth,
+};
+use integration_tests::{Case, Tolerance};
 
 /// The exact distance, where the file states it.
 pub(crate) fn shortest(case: &Case<'_>, mesh: &Mesh, from: SurfacePoint, to: SurfacePoint) {
@@ -33,6 +31,104 @@ pub(crate) fn shortest(case: &Case<'_>, mesh: &Mesh, from: SurfacePoint, to: Sur
 }
 
 /// Answers a case, or says that its kind is another's.
-pub(crate) fn answer(_case: &Case<'_>) -> bool {
-    false
+pub(crate) fn answer(case: &Case<'_>) -> bool {
+    let answered = match case.kind() {
+        "parametric_geodesic" => parametric_geodesic(case),
+        "torus_closed_geodesic" => torus_closed_geodesic(case),
+        "surface_ivp" => surface_ivp(case),
+        _ => return false,
+    };
+    if let Err(error) = answered {
+        case.refuse(&error.to_string(), |_| true);
+    }
+    true
+}
+
+fn pair(case: &Case<'_>, key: &str) -> DVec2 {
+    let numbers = case.numbers(key);
+    DVec2::new(numbers[0], numbers[1])
+}
+
+/// The patch of a case: an array of Bézier patches would be cut by the caller; the file has single ones.
+fn patch(case: &Case<'_>) -> Result<BezierPatch<DVec3>, bezier_mass::Error> {
+    let net = case.input()["control_net"]
+        .as_array()
+        .expect("a control net");
+    let weights = case.get("weights").and_then(integration_tests::rows);
+    let rows: Vec<Vec<MassPoint<DVec3>>> = net
+        .iter()
+        .enumerate()
+        .map(|(i, row)| {
+            let points = integration_tests::rows(row).expect("a row of points");
+            let weight = |j: usize| weights.as_ref().map_or(1.0, |rows| rows[i][j]);
+            let mass = |(j, p): (usize, &Vec<f64>)| {
+                MassPoint::point(DVec3::new(p[0], p[1], p[2]), weight(j))
+            };
+            points.iter().enumerate().map(mass).collect()
+        })
+        .collect();
+    BezierPatch::from_rows(&rows)
+}
+
+fn parametric_geodesic(case: &Case<'_>) -> Result<(), Error> {
+    let patch = match patch(case) {
+        Ok(patch) => patch,
+        Err(error) => {
+            case.refuse(&error.to_string(), |_| true);
+            return Ok(());
+        }
+    };
+    let degrees: Vec<usize> = case.numbers("degree").iter().map(|n| *n as usize).collect();
+    case.require(
+        patch.degrees().to_vec() == degrees,
+        "the net is that of one patch",
+    );
+    let (from, to) = (pair(case, "start_uv"), pair(case, "end_uv"));
+    let paths = PatchLevels::new(&patch).paths(from, to, case.number("levels") as usize)?;
+    let lengths: Vec<f64> = paths.iter().map(|path| path.length).collect();
+    case.compare("lengths", lengths.clone());
+    case.compare(
+        "faces",
+        paths.iter().map(|path| path.faces).collect::<Vec<_>>(),
+    );
+    // What follows is derived from the lengths and the file's own reference.
+    case.seen("reference_length");
+    let Some(reference) = case.expected()["reference_length"].as_f64() else {
+        return Ok(());
+    };
+    let errors: Vec<f64> = lengths.iter().map(|length| length - reference).collect();
+    if case.expected()["errors"].is_array() {
+        case.compare("errors", errors.clone());
+    }
+    if case.expected()["last_order"].is_number() {
+        let order = (errors[errors.len() - 2] / errors[errors.len() - 1]).log2();
+        case.compare_within("last_order", order, Tolerance::Absolute(1e-4));
+    }
+    Ok(())
+}
+
+fn torus_closed_geodesic(case: &Case<'_>) -> Result<(), Error> {
+    let (p, q) = (case.number("p") as u32, case.number("q") as u32);
+    let closed = closed_torus_geodesic(case.number("R"), case.number("r"), p, q)?;
+    case.compare("clairaut_constant", closed.clairaut);
+    case.compare("length", closed.length);
+    Ok(())
+}
+
+fn surface_ivp(case: &Case<'_>) -> Result<(), Error> {
+    let torus = TorusSurface {
+        major: case.number("R"),
+        minor: case.number("r"),
+    };
+    let start = SurfaceRay {
+        uv: pair(case, "uv"),
+        direction: pair(case, "duv"),
+    };
+    let end = trace_smooth(&torus, start, case.number("length"), 1e-13)?;
+    let point = torus.jet(end.uv).point;
+    case.compare("end_uv", vec![end.uv.x, end.uv.y]);
+    case.compare("end_point", vec![point.x, point.y, point.z]);
+    case.compare("clairaut", torus.clairaut(start.uv, start.direction));
+    case.compare("clairaut_at_end", torus.clairaut(end.uv, end.direction));
+    Ok(())
 }

@@ -13,3 +13,4 @@ mod trace;
 mod window;
 
 pub use sweep::{DistanceField, Sweep};
+pub(crate) use trace::join_around_vertices;

@@ -75,7 +75,7 @@ impl DistanceField<'_, '_> {
         };
         faces.dedup();
         faces.reverse();
-        let joined = joined(mesh, &faces);
+        let joined = join_around_vertices(mesh, &faces);
         finder.taut(&joined, source, to).cloned()
     }
 
@@ -204,7 +204,7 @@ fn is_inside(s: DVec2, apex: DVec2, length: f64) -> bool {
 }
 
 /// Fills the turns around vertices in a list of faces, so that consecutive faces share an edge.
-fn joined(mesh: &Mesh, faces: &[u32]) -> Vec<u32> {
+pub(crate) fn join_around_vertices(mesh: &Mesh, faces: &[u32]) -> Vec<u32> {
     let mut joined: Vec<u32> = Vec::with_capacity(faces.len());
     for &f in faces {
         if let Some(&last) = joined.last() {
