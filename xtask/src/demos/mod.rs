@@ -129,7 +129,6 @@ pub fn all() -> Vec<Entry> {
         entry::<t_quartic::TQuartic>(),
         entry::<variation::Variation>(),
         // entry::<wavefront::Wavefront>(),
-
         entry::<wavefront_3d::Wavefront3d>(),
     ]
 }
