@@ -314,10 +314,12 @@ impl<'m> Fan<'m> {
         options: FanOptions,
         depth: u32,
     ) {
-        if depth >= REFINEMENTS
-            || self.ray_count() + run.parameters.len() >= MOST_RAYS
-            || self.close(one.1, two.1, options)
+        if self.ray_count() + run.parameters.len() >= MOST_RAYS || self.close(one.1, two.1, options)
         {
+            return;
+        }
+        if depth >= REFINEMENTS {
+            self.tear(run, one, two, options);
             return;
         }
         let middle = 0.5 * (one.0 + two.0);
@@ -335,6 +337,23 @@ impl<'m> Fan<'m> {
                 self.push(run, start, first);
             }
         }
+    }
+
+    /// Cuts the run where neighbours that all exist are torn apart: one grazes an interface, the next meets it farther on.
+    fn tear(&mut self, run: &mut Run, one: (f64, &Trace), two: (f64, &Trace), options: FanOptions) {
+        let (mut low, mut high) = ((one.0, one.1.clone()), (two.0, two.1.clone()));
+        while high.0 - low.0 > BOUNDARY {
+            let middle = 0.5 * (low.0 + high.0);
+            let Ok(trace) = self.trace(middle) else { break };
+            if self.close(&low.1, &trace, options) {
+                low = (middle, trace);
+            } else {
+                high = (middle, trace);
+            }
+        }
+        self.push(run, low.0, low.1);
+        self.finish(run);
+        self.push(run, high.0, high.1);
     }
 
     fn close(&self, one: &Trace, two: &Trace, options: FanOptions) -> bool {
@@ -360,5 +379,47 @@ impl<'m> Fan<'m> {
             }
         }
         (good, trace)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Interface, Medium, Mode, Step};
+
+    #[test]
+    fn a_ray_that_grazes_a_hill_tears_the_fan() {
+        // Behind the hill at 0 stands a higher one at 4: rays just above the first top hit the second.
+        let hills = |x: f64| {
+            let near = (-x * x).exp();
+            let far = 2.0 * (-(x - 4.0) * (x - 4.0)).exp();
+            let slope = -2.0 * x * near - 2.0 * (x - 4.0) * far;
+            let bend = (4.0 * x * x - 2.0) * near + (4.0 * (x - 4.0) * (x - 4.0) - 2.0) * far;
+            [near + far, slope, bend]
+        };
+        let model = Model::try_new(
+            DVec2::new(-6.0, -2.0),
+            DVec2::new(8.0, 4.0),
+            vec![
+                Medium::isotropic(1.0).unwrap(),
+                Medium::isotropic(2.0).unwrap(),
+            ],
+            vec![Interface::graph(-8.0, 10.0, 180, hills).unwrap()],
+        )
+        .unwrap();
+        let step = Step {
+            interface: 0,
+            mode: Mode::Reflect,
+        };
+        let source = Source::point(DVec2::new(-4.0, 0.8));
+        let code = Code { steps: vec![step] };
+        let fan = Fan::new(&model, source, code, FanOptions::default()).unwrap();
+        let ends: Vec<[f64; 2]> = fan.illuminated().collect();
+        assert!(ends.len() >= 2, "{ends:?}");
+        for pair in ends.windows(2) {
+            let [left, right] = [pair[0][1], pair[1][0]].map(|t| fan.trace(t).unwrap());
+            assert!(left.impacts[0].point.distance(right.impacts[0].point) > 0.5);
+        }
+        assert!(fan.fronts(FrontTolerance::time(1e-6)).is_ok());
     }
 }
