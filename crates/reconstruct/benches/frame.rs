@@ -50,7 +50,7 @@ fn streamed(bencher: Bencher<'_, '_>, sensors: usize) {
     });
 }
 
-/// The same with the covariance ready: quadratic in the sensors.
+/// The same with the covariance ready: cubic in the sensors.
 #[divan::bench(args = [8, 32, 128])]
 fn with_covariance(bencher: Bencher<'_, '_>, sensors: usize) {
     let (layout, readings) = setup(sensors);
