@@ -322,8 +322,8 @@ fn draw_patches(context: &mut Context) -> Result<()> {
             .net
             .control()
             .map(|row| row.map(|control| control.position().unwrap_or_default()));
-        for i in 0..3 {
-            net.append(Mesh::tube(&controls[i], 0.6 * thickness, false));
+        for (i, row) in controls.iter().enumerate() {
+            net.append(Mesh::tube(row, 0.6 * thickness, false));
             net.append(Mesh::tube(
                 &[controls[0][i], controls[1][i], controls[2][i]],
                 0.6 * thickness,

@@ -326,7 +326,7 @@ fn draw_spatial(context: &mut Context) -> Result<()> {
         "Two views of a coiled curve with its reconstructions on top, and a circle with the tangent's path inside.",
     )?;
     let tube = Mesh::tube(truth.points(), 0.01, false);
-    let beads = Mesh::tube(&projected.points().to_vec(), 0.02, false);
+    let beads = Mesh::tube(projected.points(), 0.02, false);
     context.meshes(
         "ribbon",
         &[

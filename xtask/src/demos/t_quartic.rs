@@ -248,7 +248,7 @@ impl TQuartic {
     /// Offsets every path of a file and writes the result as SVG.
     fn offset_file(&self, context: &mut Context, file: &PathBuf) -> Result<()> {
         let text =
-            std::fs::read_to_string(file).or_bad_input(&format!("--svg {}", file.display()))?;
+            std::fs::read_to_string(file).or_bad_input(format!("--svg {}", file.display()))?;
         let mut plot = Plot::geometry("");
         let (mut originals, mut offsets) = (String::new(), String::new());
         let mut size = kurbo::Rect::new(

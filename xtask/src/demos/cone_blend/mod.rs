@@ -758,7 +758,7 @@ fn strip_scene(
         let (sin, cos) = cone.half_angle().sin_cos();
         let mesh = Mesh::surface(
             |u, v| {
-                let height = (cone.point().dot(cone.axis()) * -1.0) - 2.4 + 4.8 * u;
+                let height = -cone.point().dot(cone.axis()) - 2.4 + 4.8 * u;
                 let (s, c) = (std::f64::consts::TAU * v).sin_cos();
                 let radial = c * across + s * other;
                 let radius = cone.radius() + height * cone.half_angle().tan();
