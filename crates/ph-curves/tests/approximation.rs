@@ -1,9 +1,7 @@
 //! The G2 pipeline on a thousand random B-splines, and its laws.
 
 use ph_curves::glam::DVec2;
-use ph_curves::{
-    Approximated, Approximation, CubicPath, Error, Joint, Piece, PlaneCurve, approximate,
-};
+use ph_curves::{Approximated, Approximation, CubicPath, Piece, PlaneCurve, approximate};
 
 /// A small generator of reproducible numbers (SplitMix64).
 struct Random(u64);
