@@ -220,7 +220,7 @@ mod tests {
                 assert!((speed - expected).abs() < 1e-4 * expected);
             }
             let rest = path.length() - points.last().unwrap().length;
-            assert!(rest >= 0.0 && rest < 0.03, "{feed:?} stops {rest} short");
+            assert!((0.0..0.03).contains(&rest), "{feed:?} stops {rest} short");
         }
     }
 

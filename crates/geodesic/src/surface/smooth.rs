@@ -105,7 +105,7 @@ const MOST_STEPS: usize = 1_000_000;
 ///
 /// # Errors
 ///
-/// [`Error::NoDirection`] for a direction that vanishes on the surface; [`Error::OutsideDomain`] where the surface has no
+/// [`Error::OutsideDomain`] for a direction that vanishes on the surface, and where the surface has no
 /// tangent plane or is not finite; [`Error::NotConverged`] after a million steps.
 pub fn trace_smooth(
     surface: &impl SmoothSurface,
