@@ -2,7 +2,7 @@
 //!
 //! What one sees: upper left an orange ellipsoid, the front at time zero. Four square sheets, blue and growing, are parts of
 //! its offsets on their way down into a grey bowl, a paraboloid. To the right, four sheets in red tones rise again: they
-//! shrink, fold over each other along sharp edges where they pass the caustic, and open again turned over. Thin grey tubes
+//! shrink to something like a line where they pass the caustic, and open again turned over. Thin grey tubes
 //! are the four corner rays and the middle one.
 
 use anyhow::Result;

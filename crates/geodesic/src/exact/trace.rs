@@ -19,11 +19,9 @@ impl<'m> Sweep<'m> {
         to: SurfacePoint,
     ) -> Result<GeodesicPath, Error> {
         let (from, to) = (self.mesh().canonical(from)?, self.mesh().canonical(to)?);
-        let distance = self.distance(from, to)?;
+        self.distance(from, to)?;
         let mut finder = PathFinder::new(self.mesh());
-        let path = DistanceField { sweep: self }.path_to(to, &mut finder)?;
-        let _ = distance;
-        Ok(path)
+        DistanceField { sweep: self }.path_to(to, &mut finder)
     }
 
     /// Whether a path is as short as any between its ends: its length over the exact distance, 1 for a shortest path up to
