@@ -100,7 +100,6 @@ pub struct FeedInterpolator<'a> {
     step: u64,
     span: usize,
     before: f64,
-    guess: f64,
     resting: f64,
 }
 
@@ -122,7 +121,6 @@ impl<'a> FeedInterpolator<'a> {
             step: 0,
             span: 0,
             before: 0.0,
-            guess: 0.0,
             resting: -1.0,
         })
     }
@@ -142,12 +140,11 @@ impl Iterator for FeedInterpolator<'_> {
         while length > self.before + arc.total() && self.span + 1 < self.path.spans().len() {
             self.before += arc.total();
             self.span += 1;
-            self.guess = 0.0;
             arc = self.path.spans()[self.span].arc_length();
         }
         let within = (length - self.before).clamp(0.0, arc.total());
-        let t = arc.parameter_near(within, self.guess).ok()?;
-        (self.guess, self.resting, self.step) = (t, length, self.step + 1);
+        let t = arc.parameter_at(within).ok()?;
+        (self.resting, self.step) = (length, self.step + 1);
         Some(FeedPoint {
             time,
             parameter: self.span as f64 + t,

@@ -3,6 +3,7 @@
 use bezier_mass::{BezierCurve, bernstein};
 use glam::{DVec2, DVec3};
 
+use crate::arc_length::power_coefficients;
 use crate::complex::{conj, sqrt, square};
 use crate::dual::rational_curve;
 use crate::quadrature::integrate;
@@ -667,22 +668,6 @@ impl<const N: usize> TryFrom<StoredArc> for PhArc<N> {
         })?;
         Self::new(stored.w0, stored.w1, g)
     }
-}
-
-/// Coefficients of the powers of t: binomials times forward differences.
-fn power_coefficients<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {
-    let mut row = *coefficients;
-    let mut binomial = 1.0;
-    for level in 1..N {
-        for k in (level..N).rev() {
-            row[k] -= row[k - 1];
-        }
-    }
-    for (k, c) in row.iter_mut().enumerate() {
-        *c *= binomial;
-        binomial *= (N - 1 - k) as f64 / (k + 1) as f64;
-    }
-    row
 }
 
 #[cfg(test)]

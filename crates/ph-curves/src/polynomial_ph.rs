@@ -69,7 +69,7 @@ impl PolynomialPh {
         Ok(Self {
             preimage_derivative: bernstein::derivative(&preimage),
             control_points: bernstein::integral(&hodograph, start),
-            arc_length: ArcLength::of_speed(bernstein::product(&factor, &norm)),
+            arc_length: ArcLength::try_new(bernstein::product(&factor, &norm))?,
             factor,
             preimage,
             hodograph,

@@ -41,7 +41,7 @@ impl SpatialPh {
         Ok(Self {
             preimage_derivative: bernstein::derivative(&preimage),
             control_points: bernstein::integral(&hodograph, start),
-            arc_length: ArcLength::of_speed(speed),
+            arc_length: ArcLength::try_new(speed)?,
             preimage,
         })
     }
