@@ -269,6 +269,25 @@ pub enum Error {
         /// Second parameter.
         v: f64,
     },
+    /// A smooth surface has no tangent plane at these parameters, or a direction vanishes there.
+    #[error("the surface has no tangent plane at ({u}, {v}), or the direction vanishes there")]
+    NoTangentPlane {
+        /// First parameter.
+        u: f64,
+        /// Second parameter.
+        v: f64,
+    },
+    /// The two ends of a path on a smooth surface are the same point, and the way between them has no length.
+    #[error("the way has no length")]
+    SamePoint,
+    /// A control net that is not that of an array of Bézier patches.
+    #[error("{size:?} mass points are not a net of patches of degrees {degrees:?}")]
+    NetSize {
+        /// The degrees of a patch.
+        degrees: [usize; 2],
+        /// Numbers of rows and columns.
+        size: [usize; 2],
+    },
     /// A refinement that would need too much memory.
     #[error("the next refinement has {faces} faces")]
     TooLarge {

@@ -100,7 +100,6 @@ pub use closest::{Closest, ClosestPoint};
 pub use error::Error;
 pub use exact::{DistanceField, Sweep};
 pub use finder::{PathFinder, Start};
-pub use glam;
 pub use loops::{DirectedLoop, GeodesicLoop, LoopFinder};
 #[cfg(feature = "triangulate")]
 pub use mesh::triangulate_domain;
@@ -113,9 +112,11 @@ pub use pivot::Update;
 pub use straightest::{AtBoundary, Stop, Straightest, Trace};
 pub use strip::Side;
 pub use surface::{
-    ClosedTorusGeodesic, LevelPath, PatchLevels, SmoothSurface, SurfaceJet, SurfaceRay,
-    TorusSurface, closed_torus_geodesic, trace_smooth,
+    ClosedTorusGeodesic, Convergence, LevelPath, PatchLevels, SmoothGeodesic, SmoothSurface,
+    SurfaceJet, SurfaceRay, TorusSurface, closed_torus_geodesic, geodesic_between, trace_smooth,
+    trace_smooth_points,
 };
 pub use surface_point::{OUTSIDE, SNAP, SurfacePoint};
 pub use torus::TorusClasses;
 pub use unfold::Unfolding;
+pub use {bezier_mass, glam};

@@ -1,22 +1,39 @@
-//! A Bézier patch as a sequence of polyhedra, and a path that is carried from each to the next.
+//! A parametric surface as a sequence of polyhedra, and a path that is carried from each to the next (Section 2.2 of the
+//! thesis, Figs. 2.6 and 2.7).
 
-use bezier_mass::{BezierPatch, MassPoint, bernstein};
+use bezier_mass::{BSplineSurface, BezierPatch, MassPoint};
 use glam::{DVec2, DVec3};
 
+use super::carry::tighten_through;
+use super::convergence::Convergence;
+use super::grid::Grid;
+use super::net::{Axis, BezierNet};
 use crate::exact::join_around_vertices;
-use crate::mesh::{Mesh, face_of, next};
-use crate::{Error, PathFinder, SurfacePoint};
+use crate::mesh::Mesh;
+use crate::{Error, PathFinder};
 
-/// The control nets of a polynomial or rational Bézier patch after 0, 1, 2, ... midpoint subdivisions, as meshes: they
-/// converge to the surface with the square of their step.
+/// The control nets of a Bézier patch, or of the Bézier patches of a spline surface, after 0, 1, 2, ... midpoint
+/// subdivisions, as meshes: they converge to the surface with the square of their step.
 ///
-/// Vertex `(i, j)` of a net belongs to the parameters `(i / columns, j / rows)`; each cell is cut by the diagonal from
-/// `(i, j)` to `(i + 1, j + 1)`.
+/// Each line of the net belongs to a parameter, at equal steps on each patch; each cell is cut by the diagonal from
+/// `(i, j)` to `(i + 1, j + 1)`. In the direction of periodic knots the net is closed: paths cross the seam, and parameters
+/// beyond the period choose how often a path goes round. A seam of clamped knots is a boundary, as it is in the data.
+///
+/// ```
+/// use geodesic::{PatchLevels, bezier_mass::BezierPatch, glam::{DVec2, DVec3}};
+/// let heights = [[0.0, 0.3, 0.0], [0.3, 1.5, 0.3], [0.0, 0.3, 0.0]];
+/// let net: Vec<DVec3> = (0..9)
+///     .map(|k| DVec3::new((k / 3) as f64, (k % 3) as f64, heights[k / 3][k % 3]))
+///     .collect();
+/// let patch = BezierPatch::polynomial([2, 2], &net)?;
+/// let (from, to) = (DVec2::new(0.1, 0.1), DVec2::new(0.9, 0.7));
+/// let (path, convergence) = PatchLevels::new(&patch).path_within(from, to, 1e-4)?;
+/// assert!(convergence.error() <= 1e-4 && (path.length - convergence.lengths[0]).abs() < 0.3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct PatchLevels {
-    degrees: [usize; 2],
-    /// Rows along v of the current net, for each index along u.
-    net: Vec<Vec<MassPoint<DVec3>>>,
+    net: BezierNet,
 }
 
 /// The shortest path on the net of one level, within the faces that the path of the level before suggested.
@@ -27,60 +44,91 @@ pub struct LevelPath {
     pub length: f64,
     /// The number of faces of the net.
     pub faces: usize,
-    /// The path in space, and in the parameter plane.
+    /// Its points in space.
     pub positions: Vec<DVec3>,
     /// Its points in the parameter plane.
     pub parameters: Vec<DVec2>,
 }
 
-/// Parameters this close to a grid line, in cells, lie on it: the carried points are good to rounding.
-const ON_LINE: f64 = 1e-9;
-/// A net never has more faces than this.
-const MOST_FACES: usize = 1 << 24;
-
 impl PatchLevels {
-    /// The patch's own net, level 0.
+    /// The patch's own net, level 0, over the unit square.
     #[must_use]
     pub fn new(patch: &BezierPatch<DVec3>) -> Self {
         Self {
-            degrees: patch.degrees(),
-            net: patch.rows().map(<[_]>::to_vec).collect(),
+            net: BezierNet::of_patch(patch),
         }
     }
 
-    /// Shortest paths between two parameter points on the nets of level 0 to `levels`.
-    ///
-    /// The error falls with the square of the step, by a factor 4 a level, once the path's way is found; a third of the last
-    /// change estimates it.
+    /// The net of an array of Bézier patches of the same degrees that share their boundaries: `a m + 1` rows of
+    /// `b n + 1` mass points for `a x b` patches of degrees `[m, n]`, over the unit square in equal parts.
     ///
     /// # Errors
     ///
-    /// [`Error::OutsideDomain`] for an end outside `[0, 1]²`; the errors of [`Mesh::new`] for a net with a collapsed edge;
-    /// [`Error::TooLarge`] for a net beyond 16 million faces.
-    pub fn paths(mut self, from: DVec2, to: DVec2, levels: usize) -> Result<Vec<LevelPath>, Error> {
-        for point in [from, to] {
-            let inside = point.cmpge(DVec2::ZERO).all() && point.cmple(DVec2::ONE).all();
-            if !inside {
-                return Err(Error::OutsideDomain {
-                    u: point.x,
-                    v: point.y,
-                });
-            }
+    /// [`Error::NetSize`] for a net of another size.
+    pub fn of_patches(degrees: [usize; 2], rows: &[Vec<MassPoint<DVec3>>]) -> Result<Self, Error> {
+        Ok(Self {
+            net: BezierNet::of_rows(degrees, rows)?,
+        })
+    }
+
+    /// The net of one Bézier patch for each pair of knot spans of a spline surface, over the surface's own parameters.
+    #[must_use]
+    pub fn of_spline(surface: &BSplineSurface<DVec3>) -> Self {
+        Self {
+            net: BezierNet::of_spline(surface),
         }
-        let mut way = vec![from, to];
-        let mut paths = Vec::with_capacity(levels + 1);
-        for level in 0..=levels {
-            if level > 0 {
-                self.subdivide()?;
-            }
-            let path = self.path_along(&way, from, to)?;
-            way.clone_from(&path.parameters);
+    }
+
+    /// The net of this level as a mesh.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mesh::new`], for a net with a collapsed edge or a control vector.
+    pub fn mesh(&self) -> Result<Mesh, Error> {
+        Mesh::new(
+            &self.net.positions()?,
+            &Grid::new(&self.net.axes).triangles(),
+        )
+    }
+
+    /// Goes on to the next level: one midpoint subdivision in both directions.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::TooLarge`] for a net beyond 16 million faces.
+    pub fn subdivide(&mut self) -> Result<(), Error> {
+        self.net.subdivide()
+    }
+
+    /// Shortest paths between two parameter points on the nets of level 0 to `levels`, the first one found from the straight
+    /// segment between the parameters.
+    ///
+    /// The error falls with the square of the step, by a factor 4 a level, once the path's way is found.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutsideDomain`] for an end outside the domain; those of [`PatchLevels::mesh`]; [`Error::TooLarge`].
+    pub fn paths(self, from: DVec2, to: DVec2, levels: usize) -> Result<Vec<LevelPath>, Error> {
+        self.paths_along(&[from, to], levels)
+    }
+
+    /// The same with the first path found from a curve in the parameter plane, which chooses on which side of a bump it
+    /// passes.
+    ///
+    /// # Errors
+    ///
+    /// As for [`PatchLevels::paths`]; [`Error::ShortLoop`] for fewer than two points.
+    pub fn paths_along(mut self, way: &[DVec2], levels: usize) -> Result<Vec<LevelPath>, Error> {
+        let mut paths = vec![self.path_along(way)?];
+        for level in 0..levels {
+            self.subdivide()?;
+            let path = self.path_along(&paths[level].parameters)?;
             paths.push(path);
         }
         Ok(paths)
     }
 
-    /// The path on the first level whose estimated error is below the tolerance, with that estimate.
+    /// The path on the first level whose estimated error, [`Convergence::error`], is below the tolerance.
     ///
     /// # Errors
     ///
@@ -90,201 +138,220 @@ impl PatchLevels {
         from: DVec2,
         to: DVec2,
         tolerance: f64,
-    ) -> Result<(LevelPath, f64), Error> {
-        let mut last = self.clone().paths(from, to, 0)?.remove(0);
-        loop {
+    ) -> Result<(LevelPath, Convergence), Error> {
+        let mut path = self.path_along(&[from, to])?;
+        let mut convergence = Convergence {
+            lengths: vec![path.length],
+        };
+        // Not `error > tolerance`: a tolerance that is no number is never met, and ends in `TooLarge`.
+        while !(convergence.error() <= tolerance) {
             self.subdivide()?;
-            let way = last.parameters.clone();
-            let path = self.path_along(&way, from, to)?;
-            let estimate = (path.length - last.length).abs() / 3.0;
-            if estimate <= tolerance {
-                return Ok((path, estimate));
-            }
-            last = path;
+            path = self.path_along(&path.parameters)?;
+            convergence.lengths.push(path.length);
         }
+        Ok((path, convergence))
     }
 
-    /// One midpoint subdivision in both directions.
-    fn subdivide(&mut self) -> Result<(), Error> {
-        let faces = 8 * (self.net.len() - 1) * (self.net.first().map_or(1, Vec::len) - 1);
-        if faces > MOST_FACES {
-            return Err(Error::TooLarge { faces });
+    /// The path on this level from the first to the last point of a way in the parameter plane.
+    fn path_along(&self, way: &[DVec2]) -> Result<LevelPath, Error> {
+        let axes = &self.net.axes;
+        let outside = |p: &&DVec2| !(axes[0].contains(p.x) && axes[1].contains(p.y));
+        if let Some(p) = way.iter().find(outside) {
+            return Err(Error::OutsideDomain { u: p.x, v: p.y });
         }
-        let [along_u, along_v] = self.degrees;
-        let rows: Vec<Vec<MassPoint<DVec3>>> =
-            self.net.iter().map(|row| halved(row, along_v)).collect();
-        let columns: Vec<Vec<MassPoint<DVec3>>> = transposed(&rows)
-            .iter()
-            .map(|column| halved(column, along_u))
-            .collect();
-        self.net = transposed(&columns);
-        Ok(())
-    }
-
-    fn path_along(&self, way: &[DVec2], from: DVec2, to: DVec2) -> Result<LevelPath, Error> {
-        let (columns, rows) = (self.net.len() - 1, self.net.first().map_or(1, Vec::len) - 1);
-        let grid = Grid { columns, rows };
-        let mesh = self.mesh(&grid)?;
-        let scale = DVec2::new(columns as f64, rows as f64);
-        let scaled: Vec<DVec2> = way.iter().map(|point| *point * scale).collect();
-        let faces = grid.faces_met(&scaled);
-        let ends = [from * scale, to * scale].map(|point| grid.point(point));
-        let [start, end] = ends;
+        let places = places(axes, way);
+        let [from, .., to] = places[..] else {
+            return Err(Error::ShortLoop { points: way.len() });
+        };
+        let grid = Grid::new(axes);
+        let mesh = self.mesh()?;
+        let faces = join_around_vertices(&mesh, &grid.faces_met(&places));
+        let [start, end] = [from, to].map(|place| mesh.canonical(grid.point(place)));
+        let (start, end) = (start?, end?);
         let mut finder = PathFinder::new(&mesh).with_neighbouring_classes(false);
-        let joined = join_around_vertices(&mesh, &faces);
-        let path = finder.along(&joined, mesh.canonical(start)?, mesh.canonical(end)?)?;
+        let path = if axes.iter().any(|axis| axis.closed) {
+            &tighten_through(&mesh, &faces, start, end)?
+        } else {
+            finder.along(&faces, start, end)?
+        };
+        let mut near = from;
+        let parameters = path.points().iter().map(|point| {
+            near = grid.place(&mesh, *point, near);
+            DVec2::new(axes[0].to_parameter(near.x), axes[1].to_parameter(near.y))
+        });
         Ok(LevelPath {
             length: path.length(),
             faces: mesh.face_count(),
             positions: path.positions().to_vec(),
-            parameters: path
-                .points()
-                .iter()
-                .map(|point| grid.parameter(&mesh, *point) / scale)
-                .collect(),
+            parameters: parameters.collect(),
         })
     }
+}
 
-    fn mesh(&self, grid: &Grid) -> Result<Mesh, Error> {
-        let mut positions = Vec::with_capacity((grid.columns + 1) * (grid.rows + 1));
-        for (i, row) in self.net.iter().enumerate() {
-            for (j, mass) in row.iter().enumerate() {
-                let vertex = (i * (grid.rows + 1) + j) as u32;
-                positions.push(mass.position().ok_or(Error::NonFiniteVertex { vertex })?);
-            }
+/// A way in units of cells. A segment that is straight in the parameters has a corner where it passes from a span to one of
+/// another width.
+fn places(axes: &[Axis; 2], way: &[DVec2]) -> Vec<DVec2> {
+    let place = |p: DVec2| DVec2::new(axes[0].to_cells(p.x), axes[1].to_cells(p.y));
+    let mut places: Vec<DVec2> = way.first().copied().map(place).into_iter().collect();
+    for ends in way.windows(2) {
+        let along = ends[1] - ends[0];
+        let mut cuts: Vec<f64> = Vec::new();
+        for (axis, (from, step)) in axes
+            .iter()
+            .zip([(ends[0].x, along.x), (ends[0].y, along.y)])
+        {
+            let breakpoints = axis.breakpoints_between(from, from + step);
+            cuts.extend(breakpoints.iter().map(|b| (b - from) / step));
         }
-        Mesh::new(&positions, &grid.triangles())
+        cuts.sort_by(f64::total_cmp);
+        places.extend(cuts.iter().map(|&t| place(ends[0] + t * along)));
+        places.push(place(ends[1]));
     }
+    places
 }
 
-/// The cells of a net and their two triangles.
-struct Grid {
-    columns: usize,
-    rows: usize,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{SmoothSurface, TorusSurface, geodesic_between};
+    use bezier_mass::Knots;
+    use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
-impl Grid {
-    fn vertex(&self, i: usize, j: usize) -> u32 {
-        (i * (self.rows + 1) + j) as u32
-    }
-
-    /// Cell by cell the triangle below the diagonal (of larger u), then the one above.
-    fn triangles(&self) -> Vec<[u32; 3]> {
-        let cells = (0..self.columns).flat_map(|i| (0..self.rows).map(move |j| (i, j)));
-        cells
-            .flat_map(|(i, j)| {
-                let [a, b, c, d] = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
-                    .map(|(i, j)| self.vertex(i, j));
-                [[a, b, c], [a, c, d]]
+    /// The torus of radii 2 and 0.7 as a rational biquadratic spline, closed in both directions: four arcs of a quarter
+    /// turn each way.
+    fn torus() -> BSplineSurface<DVec3> {
+        let breakpoints: Vec<f64> = (0..=8).map(|k| f64::from((k + 1) / 2)).collect();
+        let knots = Knots::periodic(2, &breakpoints).unwrap();
+        // Around the unit circle: a point, then the corner of the square with weight cos 45°.
+        let circle = |k: usize| {
+            let angle = TAU * k as f64 / 8.0;
+            let (radius, weight) = [(1.0, 1.0), (2f64.sqrt(), FRAC_1_SQRT_2)][k % 2];
+            (radius * DVec2::from_angle(angle), weight)
+        };
+        let control: Vec<MassPoint<DVec3>> = (0..64)
+            .map(|k| {
+                let ((a, wa), (b, wb)) = (circle(k / 8), circle(k % 8));
+                let rho = 2.0 + 0.7 * b.x;
+                MassPoint::point(DVec3::new(rho * a.x, rho * a.y, 0.7 * b.y), wa * wb)
             })
-            .collect()
+            .collect();
+        BSplineSurface::new([knots.clone(), knots], control).unwrap()
     }
 
-    /// The face at a point in cells: of larger index on a grid line, of larger u on a diagonal. With the corner of its cell.
-    fn locate(&self, point: DVec2) -> (u32, DVec2) {
-        let snapped = |x: f64| {
-            if (x - x.round()).abs() < ON_LINE {
-                x.round()
-            } else {
-                x
-            }
-        };
-        let (x, y) = (snapped(point.x), snapped(point.y));
-        let i = (x.max(0.0) as usize).min(self.columns - 1);
-        let j = (y.max(0.0) as usize).min(self.rows - 1);
-        let (s, t) = (x - i as f64, y - j as f64);
-        let above = t - s > ON_LINE;
-        (
-            (2 * (i * self.rows + j) + usize::from(above)) as u32,
-            DVec2::new(i as f64, j as f64),
-        )
+    /// The angles of a point of the torus.
+    fn angles(point: DVec3) -> DVec2 {
+        let rho = point.truncate().length() - 2.0;
+        DVec2::new(point.y.atan2(point.x), point.z.atan2(rho))
     }
 
-    fn point(&self, point: DVec2) -> SurfacePoint {
-        let (face, corner) = self.locate(point);
-        let local = (point - corner).clamp(DVec2::ZERO, DVec2::ONE);
-        let barycentric = if face % 2 == 0 {
-            let t = local.y.min(local.x);
-            [1.0 - local.x, local.x - t, t]
-        } else {
-            let s = local.x.min(local.y);
-            [1.0 - local.y, s, local.y - s]
-        };
-        SurfacePoint::Face { face, barycentric }
-    }
-
-    /// The parameter point, in cells, of a point of the mesh.
-    fn parameter(&self, mesh: &Mesh, point: SurfacePoint) -> DVec2 {
-        let of = |v: u32| {
-            DVec2::new(
-                (v as usize / (self.rows + 1)) as f64,
-                (v as usize % (self.rows + 1)) as f64,
-            )
-        };
-        match point {
-            SurfacePoint::Vertex(v) => of(v),
-            SurfacePoint::Edge { halfedge, t } => {
-                of(mesh.origin(halfedge)).lerp(of(mesh.origin(next(halfedge))), t)
-            }
-            SurfacePoint::Face { face, barycentric } => {
-                let corners = mesh.faces()[face as usize].map(of);
-                debug_assert_eq!(face_of(3 * face), face);
-                (0..3).map(|k| barycentric[k] * corners[k]).sum()
-            }
+    #[test]
+    fn the_spline_is_a_torus() {
+        let surface = torus();
+        for k in 0..40 {
+            let uv = DVec2::new(0.17 * f64::from(k) - 1.0, 0.31 * f64::from(k));
+            let point = SmoothSurface::jet(&surface, uv).point;
+            let distance = (point.truncate().length() - 2.0).hypot(point.z);
+            assert!((distance - 0.7).abs() < 1e-13, "{uv} {point}");
         }
     }
 
-    /// The faces that a polyline passes, in order: a face for each stretch between two crossings of grid lines or diagonals.
-    fn faces_met(&self, way: &[DVec2]) -> Vec<u32> {
-        let mut faces: Vec<u32> = Vec::new();
-        for ends in way.windows(2) {
-            let (a, b) = (ends[0], ends[1]);
-            let mut cuts = vec![0.0, 1.0];
-            // Families of lines: x = k, y = k, x - y = k.
-            for (from, to) in [(a.x, b.x), (a.y, b.y), (a.x - a.y, b.x - b.y)] {
-                let (low, high) = (from.min(to), from.max(to));
-                if high - low < ON_LINE {
-                    continue;
-                }
-                let mut line = low.ceil();
-                while line <= high {
-                    cuts.push((line - from) / (to - from));
-                    line += 1.0;
-                }
-            }
-            cuts.sort_by(f64::total_cmp);
-            for pair in cuts.windows(2) {
-                if pair[1] - pair[0] > ON_LINE {
-                    let (face, _) = self.locate(a.lerp(b, 0.5 * (pair[0] + pair[1])));
-                    if faces.last() != Some(&face) {
-                        faces.push(face);
-                    }
-                }
-            }
-        }
-        if faces.is_empty() {
-            faces.extend(way.first().map(|&point| self.locate(point).0));
-        }
-        faces
+    /// Across both seams, with unequal steps, against the geodesic of the torus in angles.
+    #[test]
+    fn paths_on_a_closed_spline_converge_with_order_two() {
+        let surface = torus();
+        let (from, to) = (DVec2::new(3.5, 0.25), DVec2::new(4.25, -0.5));
+        let paths = PatchLevels::of_spline(&surface).paths(from, to, 5).unwrap();
+        let last = &paths[5];
+        let smooth = geodesic_between(&surface, &last.parameters, 1e-11).unwrap();
+        assert!(smooth.inside && smooth.conjugate_points == 0);
+        // The same in angles: the ends lie on either side of both seams.
+        let ends = [from, to].map(|uv| angles(SmoothSurface::jet(&surface, uv).point));
+        let torus = TorusSurface {
+            major: 2.0,
+            minor: 0.7,
+        };
+        let reference = geodesic_between(&torus, &ends, 1e-11).unwrap();
+        assert!((smooth.length - reference.length).abs() < 1e-9);
+        let errors: Vec<f64> = paths
+            .iter()
+            .map(|path| path.length - reference.length)
+            .collect();
+        let order = (errors[4] / errors[5]).log2();
+        assert!((order - 2.0).abs() < 0.2, "{errors:?}");
+        let convergence = Convergence {
+            lengths: paths.iter().map(|path| path.length).collect(),
+        };
+        assert!(
+            convergence.error() > 0.5 * errors[5].abs()
+                && convergence.error() < 3.0 * errors[5].abs()
+        );
+        assert!((last.parameters[0] - from).length() < 1e-9);
+        assert!((last.parameters[last.parameters.len() - 1] - to).length() < 1e-9);
     }
-}
 
-/// Every segment of a chain of Bézier segments cut at its middle.
-fn halved(chain: &[MassPoint<DVec3>], degree: usize) -> Vec<MassPoint<DVec3>> {
-    let mut finer: Vec<MassPoint<DVec3>> = Vec::with_capacity(2 * chain.len());
-    for start in (0..chain.len() - 1).step_by(degree) {
-        let (left, right) = bernstein::subdivide(&chain[start..=start + degree], 0.5);
-        finer.pop();
-        finer.extend(left);
-        finer.pop();
-        finer.extend(right);
+    /// A cubic spline with spans of unequal width, clamped.
+    #[test]
+    fn paths_on_a_clamped_spline_converge_with_order_two() {
+        let knots = [
+            Knots::clamped(3, &[0.0, 0.2, 0.7, 1.0]).unwrap(),
+            Knots::clamped(2, &[-1.0, 0.5, 1.0]).unwrap(),
+        ];
+        let control: Vec<MassPoint<DVec3>> = (0..24)
+            .map(|k| {
+                let (i, j) = ((k / 4) as f64, (k % 4) as f64);
+                let height = (1.3 * i).sin() * (0.9 * j + 0.4).cos();
+                MassPoint::point(DVec3::new(i, j, height), 1.0 + 0.3 * (i * j).sin())
+            })
+            .collect();
+        let surface = BSplineSurface::new(knots, control).unwrap();
+        let (from, to) = (DVec2::new(0.1, -0.25), DVec2::new(0.85, 0.75));
+        let (path, convergence) = PatchLevels::of_spline(&surface)
+            .path_within(from, to, 1e-4)
+            .unwrap();
+        let smooth = geodesic_between(&surface, &path.parameters, 1e-10).unwrap();
+        assert!(smooth.inside);
+        let error = (path.length - smooth.length).abs();
+        assert!(
+            error <= 1e-4 && convergence.error() <= 1e-4,
+            "{error} {convergence:?}"
+        );
+        let limit = convergence.limit().unwrap();
+        assert!((limit - smooth.length).abs() < 0.3 * error);
+        assert!(
+            (convergence.order().unwrap() - 2.0).abs() < 0.2,
+            "{convergence:?}"
+        );
     }
-    finer
-}
 
-fn transposed(rows: &[Vec<MassPoint<DVec3>>]) -> Vec<Vec<MassPoint<DVec3>>> {
-    let width = rows.first().map_or(0, Vec::len);
-    (0..width)
-        .map(|j| rows.iter().map(|row| row[j]).collect())
-        .collect()
+    /// The way round a closed surface is the caller's choice.
+    #[test]
+    fn parameters_beyond_the_period_go_round() {
+        let from = DVec2::new(0.5, 2.0);
+        for turns in [-1.0, 1.0, 2.0] {
+            let to = from + DVec2::new(4.0 * turns, 0.0);
+            let paths = PatchLevels::of_spline(&torus()).paths(from, to, 3).unwrap();
+            // Around the inner equator, of radius 1.3.
+            assert!((paths[3].length / (turns.abs() * TAU * 1.3) - 1.0).abs() < 0.01);
+        }
+    }
+
+    #[test]
+    fn hostile_ends_are_refused() {
+        let patch = BezierPatch::polynomial([1, 1], &[DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE])
+            .unwrap();
+        let inside = DVec2::new(0.2, 0.3);
+        for to in [DVec2::new(1.1, 0.0), DVec2::NAN, DVec2::new(0.0, -1e-3)] {
+            let answer = PatchLevels::new(&patch).paths(inside, to, 1);
+            assert!(matches!(answer, Err(Error::OutsideDomain { .. })));
+        }
+        let answer = PatchLevels::new(&patch).paths_along(&[inside], 1);
+        assert_eq!(answer, Err(Error::ShortLoop { points: 1 }));
+        let same = PatchLevels::new(&patch).paths(inside, inside, 2).unwrap();
+        assert_eq!(same[2].length, 0.0);
+        let flat = vec![MassPoint::point(DVec3::ZERO, 1.0); 4];
+        let answer = PatchLevels::of_patches([2, 2], &vec![flat.clone(); 3]);
+        assert!(matches!(answer, Err(Error::NetSize { .. })));
+        let collapsed = PatchLevels::of_patches([1, 3], &vec![flat; 2]).unwrap();
+        assert!(collapsed.paths(inside, DVec2::ONE, 1).is_err());
+    }
 }

@@ -1,9 +1,19 @@
-//! Geodesics on smooth surfaces: as limits of paths on nets, by their differential equation, and on a torus in closed form.
+//! Geodesics on smooth surfaces: as limits of paths on polyhedra, by their differential equation, and on a torus in closed
+//! form.
 
+mod between;
+mod carry;
+mod convergence;
+mod grid;
 mod levels;
+mod net;
 mod smooth;
 mod torus_loops;
+mod trace;
 
+pub use between::{SmoothGeodesic, geodesic_between};
+pub use convergence::Convergence;
 pub use levels::{LevelPath, PatchLevels};
-pub use smooth::{SmoothSurface, SurfaceJet, SurfaceRay, TorusSurface, trace_smooth};
+pub use smooth::{SmoothSurface, SurfaceJet, TorusSurface};
 pub use torus_loops::{ClosedTorusGeodesic, closed_torus_geodesic};
+pub use trace::{SurfaceRay, trace_smooth, trace_smooth_points};
