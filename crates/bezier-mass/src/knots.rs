@@ -138,11 +138,7 @@ impl Knots {
             .chain(breakpoints.iter().copied())
             .chain(after)
             .collect();
-        // A vector with a first span that is empty would be one that starts elsewhere in the cycle.
-        Ok(Self {
-            periodic: true,
-            ..Self::new(degree, knots)?
-        })
+        Self::checked(degree, knots, true)
     }
 
     /// The periodic knot vector on `[0, 1]` with equal spans for `controls` control points.
@@ -542,6 +538,28 @@ mod tests {
             periodic.as_slice(),
             [-3.5, -0.5, 0.0, 1.0, 4.0, 4.5, 5.5, 8.5]
         );
+        Ok(())
+    }
+
+    /// The circle of four rational arcs: every knot of the cycle is double, wherever it is cut open.
+    #[test]
+    fn every_knot_of_a_cycle_may_be_double() -> Result<(), Error> {
+        for start in 0..2 {
+            let breakpoints: Vec<f64> = (start..=start + 8).map(|k| f64::from(k / 2)).collect();
+            let knots = Knots::periodic(2, &breakpoints)?;
+            assert_eq!((knots.control_count(), knots.domain()), (8, [0.0, 4.0]));
+            // Parabolas, all alike, from 1 by way of a control value 2 to 1.
+            let coefficients: Vec<f64> = (start..start + 8).map(|k| f64::from(2 - k % 2)).collect();
+            for t in [0.0, 0.25, 1.0, 1.5, 3.75, 4.0, -0.25] {
+                let local = f64::rem_euclid(t, 1.0);
+                let expected = 1.0 + 2.0 * local * (1.0 - local);
+                assert!(
+                    (knots.evaluate(&coefficients, t) - expected).abs() < 1e-15,
+                    "at {t}"
+                );
+            }
+            assert_eq!(knots.bezier_pieces(&coefficients).len(), 4);
+        }
         Ok(())
     }
 
