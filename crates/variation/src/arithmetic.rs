@@ -5,9 +5,10 @@
 //! convolution.
 
 use crate::Error;
+use crate::input::{Input, Origin, zeros_at_ends};
 use crate::root::{Interval, Root};
 use crate::rounding::{BINOMIALS, MAX_FLOAT_DEGREE, U};
-use crate::solver::{Input, Origin, Solver};
+use crate::solver::Solver;
 
 /// What a derived polynomial needs of its numbers.
 pub(crate) trait Number: Clone {
@@ -143,14 +144,10 @@ pub(crate) fn roots_of<'s>(
     solver: &'s mut Solver,
 ) -> Result<&'s [Root], Error> {
     let scaled = checked(form)?;
-    let is_zero = |c: &&Approximate| c.is_zero();
-    let zeros = (
-        scaled.iter().take_while(is_zero).count(),
-        scaled.iter().rev().take_while(is_zero).count(),
-    );
+    let zeros = zeros_at_ends(&scaled, Approximate::is_zero);
     let (coefficients, error) = unscaled(&scaled);
     #[cfg(feature = "exact")]
-    let exactly = || form.scaled::<crate::exact::Exact>();
+    let exactly = || form.scaled::<crate::dyadic::Exact>();
     #[cfg(feature = "exact")]
     let origin = Origin::Formed(&exactly);
     #[cfg(not(feature = "exact"))]
@@ -242,7 +239,8 @@ fn unscaled(scaled: &[Approximate]) -> (Vec<f64>, f64) {
     (coefficients, error)
 }
 
-fn binomial_f64(n: usize, i: usize) -> f64 {
+/// `C(n, i)`, rounded.
+pub(crate) fn binomial_f64(n: usize, i: usize) -> f64 {
     if n <= MAX_FLOAT_DEGREE {
         BINOMIALS[n][i]
     } else {

@@ -9,6 +9,7 @@
 //! [`Finding::Undecided`], and the next one takes over: fixed point, then integers.
 
 use crate::refine::{self, Bracket, Refined};
+use crate::root::{Count, Root};
 use crate::rounding::Evaluator;
 use crate::sharp::Sharp;
 use crate::subdivision::{Coefficient, crossings, sign_changes};
@@ -36,6 +37,18 @@ impl Finding {
         hi: 0.0,
         at_most: 0,
     };
+
+    /// What it says of the roots in its interval.
+    pub(crate) fn as_root(&self) -> Root {
+        match *self {
+            Self::Refined { lo, hi } | Self::Wide { lo, hi } => Root::exactly(lo, hi, 1),
+            Self::Undecided { lo, hi, at_most } => Root {
+                lo,
+                hi,
+                count: Count::AtMost(at_most),
+            },
+        }
+    }
 }
 
 /// A list of findings in storage that the caller provides.

@@ -93,9 +93,12 @@ struct ReadmeDoctests;
 mod arithmetic;
 mod bound;
 mod curve;
+#[cfg(feature = "exact")]
+mod dyadic;
 mod error;
 #[cfg(feature = "exact")]
 mod exact;
+mod input;
 mod isolate;
 mod line;
 mod low_degree;
@@ -112,8 +115,12 @@ mod sharp;
 mod sign_changes;
 mod solver;
 #[cfg(feature = "exact")]
+mod square_free;
+#[cfg(feature = "exact")]
 mod sturm;
 mod subdivision;
+mod tiers;
+mod twofold;
 
 pub use bound::{
     ChainBound, PoleStrategy, SplitBound, UnitParameter, chain_bound, chain_bound_by,
@@ -137,6 +144,7 @@ pub use sign_changes::{
     Signed, descartes_changes, sign_changes, sign_changes_by_parity, sign_changes_left,
     sign_changes_right,
 };
-pub use solver::{DEFAULT_TOLERANCE, Solver, roots, roots_of_all, roots_on};
+pub use solver::{Solver, roots, roots_of_all, roots_on};
 #[cfg(feature = "exact")]
 pub use sturm::{SturmChain, Verdict};
+pub use tiers::DEFAULT_TOLERANCE;

@@ -5,7 +5,8 @@ use num_rational::BigRational;
 
 use crate::Error;
 use crate::arithmetic::{Number, binomial, compose};
-use crate::exact::{Decomposition, Exact};
+use crate::dyadic::Exact;
+use crate::exact::Decomposition;
 
 impl Number for BigRational {
     fn exactly(x: f64) -> Self {

@@ -33,6 +33,16 @@ pub(crate) const fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits((biased as u64) << 52)
 }
 
+/// The exponent of the leading bit of a positive number.
+pub(crate) fn exponent_of(x: f64) -> i32 {
+    let biased = ((x.to_bits() >> 52) & 0x7ff) as i32;
+    if biased == 0 {
+        -1011 - x.to_bits().leading_zeros() as i32
+    } else {
+        biased - 1023
+    }
+}
+
 /// `C(n, i)` for `n <= 64`, each rounded once.
 pub(crate) static BINOMIALS: [[f64; MAX_FLOAT_DEGREE + 1]; MAX_FLOAT_DEGREE + 1] = binomials(false);
 

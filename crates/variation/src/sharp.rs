@@ -5,20 +5,19 @@
 //! scheme. The scaled coefficients `C(n,i) p_i` are kept as unevaluated sums of two numbers, and `u = t / (1-t)` is the
 //! variable, chosen in `f64`; only the final ends are mapped back to `t`, outward.
 
+use crate::input::Input;
 use crate::refine::{Bracket, Refined};
-use crate::rounding::{BINOMIAL_RESTS, BINOMIALS, Bounded, Evaluator, U};
+use crate::rounding::{Bounded, Evaluator, U};
+use crate::twofold::{halves, two_product, two_sum};
 
 /// Secant steps; convergence takes three or four.
 const MAX_STEPS: usize = 24;
 
-/// `2^27 + 1`, which splits a number into two halves (Veltkamp).
-const SPLITTER: f64 = 134_217_729.0;
-
 /// The scaled coefficients to twice the precision, formed when first needed.
 #[derive(Debug)]
 pub(crate) struct Sharp<'a> {
-    /// The exact Bernstein coefficients, or `None` where only rounded ones are known.
-    coefficients: Option<&'a [f64]>,
+    /// `None` where only rounded coefficients are known.
+    input: Option<Input<'a>>,
     store: &'a mut [f64],
     ready: bool,
 }
@@ -65,55 +64,26 @@ impl Side {
     }
 }
 
-/// `a + b` and its rounding error (Knuth).
-#[inline]
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let part = sum - a;
-    (sum, (a - (sum - part)) + (b - part))
-}
-
-/// Two numbers of at most 26 bits with the sum `a`.
-#[inline]
-fn halves(a: f64) -> (f64, f64) {
-    let c = SPLITTER * a;
-    let high = c - (c - a);
-    (high, a - high)
-}
-
-/// `a * b` and its rounding error (Dekker), with `b` split beforehand.
-#[inline]
-fn two_product(a: f64, b: f64, (b_high, b_low): (f64, f64)) -> (f64, f64) {
-    let product = a * b;
-    let (a_high, a_low) = halves(a);
-    (
-        product,
-        a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low),
-    )
-}
-
 impl<'a> Sharp<'a> {
-    pub(crate) fn new(coefficients: Option<&'a [f64]>, store: &'a mut [f64]) -> Self {
+    pub(crate) fn new(input: Option<Input<'a>>, store: &'a mut [f64]) -> Self {
         Self {
-            coefficients,
+            input,
             store,
             ready: false,
         }
     }
 
     fn prepare(&mut self) -> bool {
-        let Some(coefficients) = self.coefficients else {
+        let Some(input) = self.input else {
             return false;
         };
-        let degree = coefficients.len() - 1;
         if !self.ready {
-            let (high, low) = self.store.split_at_mut(degree + 1);
-            let binomials = BINOMIALS[degree].iter().zip(&BINOMIAL_RESTS[degree]);
-            for (((h, l), p), (b, rest)) in
-                high.iter_mut().zip(low).zip(coefficients).zip(binomials)
-            {
-                (*h, *l) = two_product(*p, *b, halves(*b));
-                *l += p * rest;
+            let (high, low) = self.store.split_at_mut(input.inner().len());
+            for (k, (high, low)) in high.iter_mut().zip(low).enumerate() {
+                let Some(c) = input.scaled(k) else {
+                    return false;
+                };
+                (*high, *low) = (c.high, c.low);
             }
             self.ready = true;
         }

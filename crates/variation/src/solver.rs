@@ -1,19 +1,15 @@
 //! The front door: from coefficients to roots, through `f64` first and exact arithmetic where that cannot decide.
 
 use crate::Error;
-#[cfg(feature = "exact")]
-use crate::exact::{self, Decomposition};
-use crate::isolate::{self, Finding, Findings, Node, Values, node_capacity, rows_len};
+use crate::input::Input;
+use crate::isolate::{Finding, Node, node_capacity};
 use crate::low_degree;
 use crate::root::{Count, INLINE, Interval, Root, Roots};
-use crate::rounding::power_of_two;
-use crate::rounding::{BINOMIALS, Evaluator, MAX_FLOAT_DEGREE, SAFE_EXPONENT, U, evaluator_len};
-use crate::sharp::{Sharp, sharp_len};
+use crate::rounding::{MAX_FLOAT_DEGREE, U};
 use crate::sign_changes::descartes_changes;
-use crate::subdivision::{self, Coefficient};
-
-/// The width, relative to the interval, to which roots are enclosed unless asked otherwise.
-pub const DEFAULT_TOLERANCE: f64 = 1e-12;
+use crate::tiers::{
+    DEFAULT_TOLERANCE, Fixed, Options, Scratch, largest, numbers_len, roots_capacity, solve,
+};
 
 /// All real roots in `[0, 1]` of `sum p_i C(n,i) t^i (1-t)^(n-i)`, ascending, each certified.
 ///
@@ -53,7 +49,7 @@ pub fn roots_on(coefficients: &[f64], interval: Interval) -> Result<Roots, Error
     let mut waiting = [Node::NONE; node_capacity(N)];
     let mut findings = [Finding::NONE; node_capacity(N)];
     let mut roots = [Root::NONE; roots_capacity(N)];
-    let scratch = Scratch {
+    let mut scratch = Scratch {
         numbers: &mut numbers,
         waiting: &mut waiting,
         findings: &mut findings,
@@ -64,7 +60,7 @@ pub fn roots_on(coefficients: &[f64], interval: Interval) -> Result<Roots, Error
         &Input::exactly(coefficients),
         interval,
         Options::DEFAULT,
-        scratch,
+        &mut scratch,
     )?;
     Ok(Roots::from_slice(&roots[..len]))
 }
@@ -135,86 +131,6 @@ pub fn roots_of_all(polynomials: &[Vec<f64>]) -> Vec<Result<Roots, Error>> {
     }
 }
 
-/// A polynomial as the algorithm sees it.
-#[derive(Clone, Copy)]
-pub(crate) struct Input<'a> {
-    pub(crate) coefficients: &'a [f64],
-    /// Bound on the absolute error of each coefficient.
-    pub(crate) error: f64,
-    /// Numbers of leading and of trailing coefficients that are certainly zero.
-    pub(crate) zeros: (usize, usize),
-    #[cfg_attr(
-        not(feature = "exact"),
-        expect(dead_code, reason = "only exact arithmetic asks for it")
-    )]
-    pub(crate) origin: Origin<'a>,
-}
-
-impl<'a> Input<'a> {
-    /// The polynomial with exactly these coefficients.
-    fn exactly(coefficients: &'a [f64]) -> Self {
-        let leading = coefficients.iter().take_while(|p| **p == 0.0).count();
-        let trailing = coefficients.iter().rev().take_while(|p| **p == 0.0).count();
-        Self {
-            coefficients,
-            error: 0.0,
-            zeros: (leading, trailing),
-            origin: Origin::Coefficients,
-        }
-    }
-}
-
-/// Where the exact coefficients come from.
-#[derive(Clone, Copy)]
-pub(crate) enum Origin<'a> {
-    /// They are the given ones.
-    Coefficients,
-    /// The given ones are rounded; this forms the exact ones, in scaled form.
-    #[cfg(feature = "exact")]
-    Formed(&'a dyn Fn() -> Vec<exact::Exact>),
-    /// The given ones are rounded and there is no exact arithmetic.
-    #[cfg(not(feature = "exact"))]
-    Formed(std::marker::PhantomData<&'a ()>),
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Options {
-    tolerance: f64,
-    exact: bool,
-}
-
-impl Options {
-    const DEFAULT: Self = Self {
-        tolerance: DEFAULT_TOLERANCE,
-        exact: cfg!(feature = "exact"),
-    };
-}
-
-/// Storage for one solve.
-struct Scratch<'a> {
-    numbers: &'a mut [f64],
-    waiting: &'a mut [Node<f64>],
-    findings: &'a mut [Finding],
-    fixed: &'a mut Fixed,
-    roots: &'a mut [Root],
-}
-
-/// Storage of the fixed-point tier, allocated when it is first needed.
-#[derive(Clone, Debug, Default)]
-struct Fixed {
-    waiting: Vec<Node<i128>>,
-    rows: Vec<i128>,
-}
-
-const fn numbers_len(degree: usize) -> usize {
-    (degree + 1) + evaluator_len(degree) + sharp_len(degree) + rows_len(degree)
-}
-
-/// Room for every finding and the two ends.
-const fn roots_capacity(degree: usize) -> usize {
-    node_capacity(degree) + 2
-}
-
 /// A root finder that keeps its storage between polynomials.
 ///
 /// # Examples
@@ -252,10 +168,7 @@ impl Solver {
             numbers: Vec::new(),
             waiting: Vec::new(),
             findings: Vec::new(),
-            fixed: Fixed {
-                waiting: Vec::new(),
-                rows: Vec::new(),
-            },
+            fixed: Fixed::EMPTY,
             roots: Vec::new(),
         }
     }
@@ -360,305 +273,14 @@ impl Solver {
         }
         self.roots
             .resize(self.roots.len().max(roots_capacity(degree)), Root::NONE);
-        let scratch = Scratch {
+        let mut scratch = Scratch {
             numbers: &mut self.numbers,
             waiting: &mut self.waiting,
             findings: &mut self.findings,
             fixed: &mut self.fixed,
             roots: &mut self.roots,
         };
-        let len = solve(input, interval, self.options, scratch)?;
+        let len = solve(input, interval, self.options, &mut scratch)?;
         Ok(&self.roots[..len])
     }
-}
-
-fn solve(
-    input: &Input<'_>,
-    interval: Interval,
-    options: Options,
-    scratch: Scratch<'_>,
-) -> Result<usize, Error> {
-    let coefficients = input.coefficients;
-    let largest = largest(coefficients)?;
-    if input.zeros.0 == coefficients.len() {
-        return Err(Error::IdenticallyZero);
-    }
-    let certain = |p: Option<&f64>| p.is_some_and(|p| p.abs() > input.error);
-    let (at_zero, at_one) = input.zeros;
-    let inner = &coefficients[at_zero..coefficients.len() - at_one];
-    let certain_ends = certain(inner.first()) && certain(inner.last());
-    // With an uncertain end the exact path decides on everything, the multiplicities of the ends included.
-    let (at_zero, at_one, inner) = if certain_ends {
-        (at_zero, at_one, inner)
-    } else {
-        (0, 0, coefficients)
-    };
-    let degree = inner.len() - 1;
-
-    let mut findings = Findings::new(&mut scratch.findings[..node_capacity(degree)]);
-    if coefficients.len() > MAX_FLOAT_DEGREE + 1 || !certain_ends {
-        findings.give_up(degree);
-    } else if degree > 0 {
-        let mut storage = Storage {
-            numbers: scratch.numbers,
-            waiting: scratch.waiting,
-            fixed: scratch.fixed,
-        };
-        let problem = Problem {
-            inner,
-            at_zero,
-            formal: coefficients.len() - 1,
-            error: input.error,
-        };
-        problem.solve(largest, options.tolerance, &mut storage, &mut findings);
-    }
-
-    let mut list = List {
-        roots: scratch.roots,
-        len: 0,
-        interval,
-    };
-    if at_zero > 0 {
-        list.push(Root::exactly(0.0, 0.0, at_zero as u32));
-    }
-    for (i, finding) in findings.as_slice().iter().enumerate() {
-        match *finding {
-            Finding::Refined { lo, hi } => list.push(Root::exactly(lo, hi, 1)),
-            _ if options.exact => {
-                conclude(
-                    input,
-                    options.tolerance,
-                    &findings.as_slice()[i..],
-                    !certain_ends,
-                    &mut list,
-                )?;
-                break;
-            }
-            Finding::Wide { lo, hi } => list.push(Root::exactly(lo, hi, 1)),
-            Finding::Undecided { lo, hi, at_most } => list.push(Root {
-                lo,
-                hi,
-                count: Count::AtMost(at_most),
-            }),
-        }
-    }
-    if at_one > 0 {
-        list.push(Root::exactly(1.0, 1.0, at_one as u32));
-    }
-    Ok(list.len)
-}
-
-/// The largest magnitude.
-fn largest(coefficients: &[f64]) -> Result<f64, Error> {
-    if coefficients.is_empty() {
-        return Err(Error::NoCoefficients);
-    }
-    let mut largest = 0.0_f64;
-    let mut finite = true;
-    for p in coefficients {
-        finite &= p.abs() <= f64::MAX;
-        largest = if p.abs() > largest { p.abs() } else { largest };
-    }
-    if finite {
-        return Ok(largest);
-    }
-    let index = coefficients
-        .iter()
-        .position(|p| !p.is_finite())
-        .unwrap_or(0);
-    Err(Error::NotFinite {
-        index,
-        value: coefficients[index],
-    })
-}
-
-/// A polynomial with nonzero ends: the coefficients that remain without the zeros at both ends, of a polynomial of degree
-/// `formal` with `at_zero` leading zeros. Dividing out the factor `t^at_zero (1-t)^at_one` leaves `C(n,i) p_i` as it is.
-struct Problem<'a> {
-    inner: &'a [f64],
-    at_zero: usize,
-    formal: usize,
-    error: f64,
-}
-
-/// Storage of the tiers without exact arithmetic.
-struct Storage<'a> {
-    numbers: &'a mut [f64],
-    waiting: &'a mut [Node<f64>],
-    fixed: &'a mut Fixed,
-}
-
-impl Problem<'_> {
-    /// The roots in the open interval, as far as `f64` and fixed point decide them.
-    fn solve(
-        &self,
-        largest: f64,
-        tolerance: f64,
-        storage: &mut Storage<'_>,
-        findings: &mut Findings<'_>,
-    ) {
-        let degree = self.inner.len() - 1;
-        let (scaled, numbers) = storage.numbers.split_at_mut(degree + 1);
-        let (plain, numbers) = numbers.split_at_mut(evaluator_len(degree));
-        let (sharp, rows) = numbers.split_at_mut(sharp_len(degree));
-        let mut error = self.error;
-        scaled.copy_from_slice(self.inner);
-        let exponent = exponent_of(largest);
-        let in_range = exponent.abs() <= SAFE_EXPONENT;
-        if !in_range {
-            // Two factors, since 2^-exponent alone may leave the range.
-            let (half, rest) = (
-                power_of_two(-exponent / 2),
-                power_of_two(-exponent - (-exponent / 2)),
-            );
-            for p in &mut *scaled {
-                *p = *p * half * rest;
-            }
-            error = error * half * rest + f64::MIN_POSITIVE;
-        }
-        let whole = degree == self.formal;
-        let before = &BINOMIALS[self.formal][self.at_zero..=self.at_zero + degree];
-        let after = &BINOMIALS[degree][..=degree];
-        if !whole {
-            error *= before
-                .iter()
-                .zip(after)
-                .fold(1.0_f64, |g, (b, a)| g.max(b / a))
-                * (1.0 + 8.0 * U);
-        }
-        let plain = Evaluator::new(
-            scaled.iter().zip(before).map(|(p, b)| p * b),
-            degree,
-            error,
-            plain,
-        );
-        let row = &mut rows[..=degree];
-        row.copy_from_slice(scaled);
-        if !whole {
-            for ((p, b), a) in row.iter_mut().zip(before).zip(after) {
-                *p = *p * b / a;
-            }
-            // Two roundings of the binomials, a product and a quotient.
-            error += 5.0 * U * row.iter().fold(0.0_f64, |m, p| m.max(p.abs()));
-        }
-        if !(row[0].exceeds(error) && row[degree].exceeds(error)) {
-            return findings.give_up(degree);
-        }
-        let exactly_known = (whole && in_range && self.error == 0.0).then_some(self.inner);
-        let mut values = Values {
-            plain,
-            sharp: Sharp::new(exactly_known, sharp),
-            tolerance,
-        };
-        isolate::isolate(degree, error, &mut values, storage.waiting, rows, findings);
-        let undecided = findings
-            .as_slice()
-            .iter()
-            .any(|f| matches!(f, Finding::Undecided { .. }));
-        if let (true, Some(coefficients)) = (undecided, exactly_known) {
-            storage
-                .fixed
-                .isolate(coefficients, exponent, &mut values, findings);
-        }
-    }
-}
-
-impl Fixed {
-    /// Repeats the isolation in fixed point.
-    fn isolate(
-        &mut self,
-        coefficients: &[f64],
-        exponent: i32,
-        values: &mut Values<'_>,
-        findings: &mut Findings<'_>,
-    ) {
-        let degree = coefficients.len() - 1;
-        self.rows.resize(self.rows.len().max(rows_len(degree)), 0);
-        self.waiting
-            .resize(self.waiting.len().max(node_capacity(degree)), Node::NONE);
-        let row = &mut self.rows[..=degree];
-        let error = subdivision::to_fixed(coefficients, exponent, row);
-        if row[0].exceeds(error) && row[degree].exceeds(error) {
-            findings.clear();
-            isolate::isolate(
-                degree,
-                error,
-                values,
-                &mut self.waiting,
-                &mut self.rows,
-                findings,
-            );
-        }
-    }
-}
-
-/// The exponent of the leading bit of a positive number.
-fn exponent_of(x: f64) -> i32 {
-    let biased = ((x.to_bits() >> 52) & 0x7ff) as i32;
-    if biased == 0 {
-        -1011 - x.to_bits().leading_zeros() as i32
-    } else {
-        biased - 1023
-    }
-}
-
-/// Roots in the order of their discovery, mapped to the interval.
-struct List<'a> {
-    roots: &'a mut [Root],
-    len: usize,
-    interval: Interval,
-}
-
-impl List<'_> {
-    fn push(&mut self, root: Root) {
-        if let Some(slot) = self.roots.get_mut(self.len) {
-            let (lo, hi) = self.interval.image(root.lo, root.hi);
-            *slot = Root {
-                lo,
-                hi,
-                count: root.count,
-            };
-            self.len += 1;
-        }
-    }
-}
-
-/// Turns findings, from the first open one on, into roots, by exact arithmetic.
-#[cfg(feature = "exact")]
-fn conclude(
-    input: &Input<'_>,
-    tolerance: f64,
-    findings: &[Finding],
-    ends_open: bool,
-    list: &mut List<'_>,
-) -> Result<(), Error> {
-    let decomposition = match input.origin {
-        Origin::Coefficients => Decomposition::of_bernstein(input.coefficients),
-        Origin::Formed(form) => Decomposition::of_homogeneous(exact::common_integers(&form())),
-    };
-    let decomposition = decomposition.ok_or(Error::IdenticallyZero)?;
-    let (at_zero, at_one) = decomposition.ends();
-    if ends_open && at_zero > 0 {
-        list.push(Root::exactly(0.0, 0.0, at_zero));
-    }
-    for finding in findings {
-        match *finding {
-            Finding::Refined { lo, hi } => list.push(Root::exactly(lo, hi, 1)),
-            Finding::Wide { lo, hi } | Finding::Undecided { lo, hi, .. } => {
-                for root in decomposition.roots_between(lo, hi, tolerance) {
-                    list.push(root);
-                }
-            }
-        }
-    }
-    if ends_open && at_one > 0 {
-        list.push(Root::exactly(1.0, 1.0, at_one));
-    }
-    Ok(())
-}
-
-/// Never called: without the feature `exact` no option asks for it.
-#[cfg(not(feature = "exact"))]
-fn conclude(_: &Input<'_>, _: f64, _: &[Finding], _: bool, _: &mut List<'_>) -> Result<(), Error> {
-    Ok(())
 }

@@ -6,7 +6,7 @@ use num_bigint::BigInt;
 
 use crate::Error;
 use crate::arithmetic::Number;
-use crate::exact::{Exact, common_integers};
+use crate::dyadic::{Exact, common_integers};
 use crate::root::Root;
 use crate::sign_changes::Signed;
 

@@ -3,7 +3,8 @@
 //! Fixed point is the second tier: 120 bits instead of 53 for four times the work, still without allocation. Both
 //! arithmetics round once a row, both count sign changes over all completions of the signs that they cannot decide.
 
-use crate::rounding::{HALF_POWERS, U};
+use crate::rounding::{HALF_POWERS, U, exponent_of, power_of_two};
+use crate::twofold::Twofold;
 
 /// A coefficient in one of the two arithmetics.
 pub(crate) trait Coefficient: Copy {
@@ -119,30 +120,44 @@ impl Coefficient for f64 {
 /// Bits of a fixed-point coefficient: seven are left for the sign and for the weights of [`Coefficient::cut`].
 const FIXED_BITS: i32 = 120;
 
-/// Writes coefficients in units of `2^-FIXED_BITS` of the largest, whose exponent is given; returns the error of each.
-pub(crate) fn to_fixed(coefficients: &[f64], largest_exponent: i32, row: &mut [i128]) -> i128 {
+/// Writes coefficients in units of `2^-FIXED_BITS` of a power of two above the largest; returns the error of each.
+/// `relative` bounds the relative error of those given.
+pub(crate) fn to_fixed(
+    coefficients: impl Iterator<Item = Twofold> + Clone,
+    relative: f64,
+    row: &mut [i128],
+) -> i128 {
+    let largest = coefficients
+        .clone()
+        .fold(0.0_f64, |m, p| m.max(p.high.abs()));
+    let unit = exponent_of(largest) + 1 - FIXED_BITS;
     let mut error = 0;
     for (fixed, p) in row.iter_mut().zip(coefficients) {
-        let bits = p.to_bits();
-        let biased = ((bits >> 52) & 0x7ff) as i32;
-        let fraction = i128::from(bits & ((1 << 52) - 1));
-        let (mantissa, exponent) = if biased == 0 {
-            (fraction, -1074)
-        } else {
-            (fraction | 1 << 52, biased - 1075)
-        };
-        let shift = exponent - (largest_exponent + 1 - FIXED_BITS);
-        let magnitude = if shift >= 0 {
-            mantissa << shift
-        } else {
-            // Below the unit it is cut off.
-            let kept = mantissa >> (-shift).min(127);
-            error |= i128::from(kept << (-shift).min(63) != mantissa);
-            kept
-        };
-        *fixed = if *p < 0.0 { -magnitude } else { magnitude };
+        let (high, low) = (in_units(p.high, unit), in_units(p.low, unit));
+        *fixed = high.0 + low.0;
+        error = error.max(high.1 + low.1);
     }
-    error
+    error + (relative * power_of_two(FIXED_BITS)).ceil() as i128
+}
+
+/// `p` in units of `2^unit`, and the error, 0 or 1: digits below the unit are cut off.
+fn in_units(p: f64, unit: i32) -> (i128, i128) {
+    let bits = p.to_bits();
+    let biased = ((bits >> 52) & 0x7ff) as i32;
+    let fraction = i128::from(bits & ((1 << 52) - 1));
+    let (mantissa, exponent) = if biased == 0 {
+        (fraction, -1074)
+    } else {
+        (fraction | 1 << 52, biased - 1075)
+    };
+    let shift = exponent - unit;
+    let (magnitude, error) = if shift >= 0 {
+        (mantissa << shift, 0)
+    } else {
+        let kept = mantissa >> (-shift).min(127);
+        (kept, i128::from(kept << (-shift).min(63) != mantissa))
+    };
+    (if p < 0.0 { -magnitude } else { magnitude }, error)
 }
 
 impl Coefficient for i128 {
