@@ -44,7 +44,7 @@
 //! | | crossings with a curve, with itself | [`Curve::meet_curve`], [`Curve::self_meetings`], as [`Meeting`]s |
 //! | | extrema, inflections | [`Curve::extrema`], [`Curve::inflections`] |
 //! | a space curve | hits with a [`Plane`] | [`meet_plane`] |
-//! | a solver to test | reproducible hard polynomials, an exact judge | [`sets`], `SturmChain` |
+//! | a solver to test | reproducible hard polynomials, an exact judge | [`sets`], `Verdict`, `SturmChain` |
 //!
 //! # What the refined bound is good for
 //!
@@ -100,6 +100,8 @@ mod error;
 mod exact;
 mod input;
 mod isolate;
+#[cfg(feature = "exact")]
+mod judge;
 mod line;
 mod low_degree;
 mod meet;
@@ -129,6 +131,8 @@ pub use bound::{
 pub use curve::{Curve, Hit, meet_plane};
 pub use error::Error;
 pub use glam;
+#[cfg(feature = "exact")]
+pub use judge::Verdict;
 pub use line::{ImplicitCurve, Line, Plane, Term};
 pub use meet::Meeting;
 #[cfg(feature = "exact")]
@@ -146,5 +150,5 @@ pub use sign_changes::{
 };
 pub use solver::{Solver, roots, roots_of_all, roots_on};
 #[cfg(feature = "exact")]
-pub use sturm::{SturmChain, Verdict};
+pub use sturm::SturmChain;
 pub use tiers::DEFAULT_TOLERANCE;

@@ -7,6 +7,7 @@ use num_bigint::BigInt;
 use crate::Error;
 use crate::arithmetic::Number;
 use crate::dyadic::{Exact, common_integers};
+use crate::judge::Verdict;
 use crate::root::Root;
 use crate::sign_changes::Signed;
 
@@ -28,17 +29,6 @@ pub struct SturmChain {
     chain: Vec<Vec<BigInt>>,
     at_zero: u32,
     at_one: u32,
-}
-
-/// How an answer compares with the truth.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Verdict {
-    /// Distinct roots of the closed interval that no enclosure holds.
-    pub missed: usize,
-    /// Enclosures without a root of their own.
-    pub false_roots: usize,
-    /// Enclosures whose multiplicity is wrong.
-    pub wrong_multiplicities: usize,
 }
 
 impl SturmChain {

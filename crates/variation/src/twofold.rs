@@ -8,7 +8,7 @@ use crate::rounding::{BINOMIAL_RESTS, BINOMIALS, U};
 /// `2^27 + 1`, which splits a number into two halves (Veltkamp).
 const SPLITTER: f64 = 134_217_729.0;
 
-/// A number as a rounded one and what it is short of.
+/// A number as a rounded one and what that is short of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Twofold {
     pub(crate) high: f64,
@@ -43,6 +43,56 @@ pub(crate) fn two_product(a: f64, b: f64, (b_high, b_low): (f64, f64)) -> (f64, 
 }
 
 impl Twofold {
+    pub(crate) const ZERO: Self = Self {
+        high: 0.0,
+        low: 0.0,
+    };
+
+    /// Error of [`Twofold::plus`], [`Twofold::minus`] and [`Twofold::times`], relative to the sum of the magnitudes, or to
+    /// the product: at most eight roundings of numbers that are themselves roundings, and as much again.
+    pub(crate) const ROUNDING: f64 = 16.0 * U * U;
+
+    fn renormalised(high: f64, low: f64) -> Self {
+        let sum = high + low;
+        Self {
+            high: sum,
+            low: low - (sum - high),
+        }
+    }
+
+    /// Of one number.
+    pub(crate) fn new(high: f64) -> Self {
+        Self { high, low: 0.0 }
+    }
+
+    pub(crate) fn plus(self, other: Self) -> Self {
+        let (sum, error) = two_sum(self.high, other.high);
+        Self::renormalised(sum, error + (self.low + other.low))
+    }
+
+    pub(crate) fn minus(self, other: Self) -> Self {
+        self.plus(Self {
+            high: -other.high,
+            low: -other.low,
+        })
+    }
+
+    pub(crate) fn times(self, other: Self) -> Self {
+        let (product, error) = two_product(self.high, other.high, halves(other.high));
+        Self::renormalised(
+            product,
+            error + (self.high * other.low + self.low * other.high),
+        )
+    }
+
+    /// Times a power of two, which is exact.
+    pub(crate) fn scaled(self, power: f64) -> Self {
+        Self {
+            high: self.high * power,
+            low: self.low * power,
+        }
+    }
+
     /// Relative error of [`Twofold::times_binomial`] and [`Twofold::over_binomial`] together, several times over.
     pub(crate) const ERROR: f64 = 64.0 * U * U;
 

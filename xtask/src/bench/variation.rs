@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use ::variation::sets::{Set, SplitMix64, planted};
-use ::variation::{Root, Solver, SturmChain, to_power_form};
+use ::variation::{Root, Solver, Verdict, to_power_form};
 use aberth::AberthSolver;
 use anyhow::{Context as _, Result, ensure};
 use polycool::{Poly, PolyDyn};
@@ -132,7 +132,7 @@ fn truth(items: &[Vec<f64>]) -> Result<Vec<(Vec<f64>, Score)>> {
         .par_iter()
         .map_init(Solver::new, |solver, item| {
             let roots: Vec<Root> = solver.roots(item)?.to_vec();
-            let verdict = SturmChain::try_new(item)?.judge(&roots);
+            let verdict = Verdict::of(item, &roots)?;
             let score = Score {
                 missed: verdict.missed,
                 false_roots: verdict.false_roots + verdict.wrong_multiplicities,
@@ -309,17 +309,15 @@ fn soak(start: u64, count: u64) -> Value {
             let mut sums = [0_usize; 4];
             for k in 0..STRIDE {
                 let polynomial = planted(1 + (k % 20) as usize, &mut random);
-                let verdict = match (solver.roots(&polynomial), SturmChain::try_new(&polynomial)) {
-                    (Ok(roots), Ok(chain)) => {
-                        sums[0] += roots.len();
-                        chain.judge(roots)
-                    }
-                    // Every planted polynomial is finite and not zero, so this is a wrong answer.
-                    _ => ::variation::Verdict {
-                        missed: 1,
-                        ..Default::default()
-                    },
-                };
+                let verdict = solver.roots(&polynomial).and_then(|roots| {
+                    sums[0] += roots.len();
+                    Verdict::of(&polynomial, roots)
+                });
+                // Every planted polynomial is finite and not zero, so an error is a wrong answer.
+                let verdict = verdict.unwrap_or(Verdict {
+                    missed: 1,
+                    ..Verdict::default()
+                });
                 sums[1] += verdict.missed;
                 sums[2] += verdict.false_roots;
                 sums[3] += verdict.wrong_multiplicities;
