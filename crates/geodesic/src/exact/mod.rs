@@ -8,9 +8,15 @@
 //! Sources: Mitchell, Mount, Papadimitriou 1987 (windows, their intersection); Xin, Wang 2009 (windows that a known vertex
 //! distance makes useless are dropped when they are born).
 
+mod face;
+mod field;
+mod radiate;
 mod sweep;
+#[cfg(test)]
+mod tests;
 mod trace;
 mod window;
 
-pub use sweep::{DistanceField, Sweep};
+pub use field::DistanceField;
+pub use sweep::Sweep;
 pub(crate) use trace::join_around_vertices;

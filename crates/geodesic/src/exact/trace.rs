@@ -2,7 +2,9 @@
 
 use glam::DVec2;
 
-use super::sweep::{Arrival, DistanceField, POINT_SOURCE, Sweep, Way, apex, local_coordinates};
+use super::face::{apex, local_coordinates};
+use super::field::{DistanceField, Way};
+use super::sweep::{Arrival, POINT_SOURCE, Sweep};
 use crate::mesh::{Mesh, NONE, face_of, next, previous};
 use crate::{Error, GeodesicPath, PathFinder, SurfacePoint};
 
@@ -95,9 +97,9 @@ impl DistanceField<'_, '_> {
                 faces.push(f);
                 return Ok(Back::Vertex(v));
             }
-            Way::Window(window) => {
-                let local = local_coordinates(mesh, window.halfedge, at);
-                (window.halfedge, window.source, window.origin, local)
+            Way::Window(h, window) => {
+                let local = local_coordinates(mesh, h, at);
+                (h, window.source, window.origin, local)
             }
             Way::Corner(v) => match sweep.arrival(v) {
                 Arrival::Source(number) => {

@@ -1,0 +1,145 @@
+//! Vertices as sources: which of them shortest ways may pass, and where they go from there.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::DVec2;
+
+use super::face::{apex, local_coordinates};
+use super::sweep::{Arrival, Sweep};
+use super::window::Window;
+use crate::FLAT_ANGLE;
+use crate::mesh::{NONE, face_of, next, previous};
+
+/// The directions in which ways go on from a vertex are widened by this, in radians, against the rounding of their angles.
+const WEDGE_SLACK: f64 = 1e-9;
+
+impl Sweep<'_> {
+    /// Whether shortest ways may pass a vertex (only where the surface has more than a full turn, or more than half a turn
+    /// at the boundary) or begin there.
+    pub(super) fn radiates(&self, v: u32) -> bool {
+        let mesh = self.mesh;
+        let straight = if mesh.is_boundary_vertex(v) {
+            PI - WEDGE_SLACK
+        } else {
+            TAU + FLAT_ANGLE
+        };
+        mesh.angle(v) > straight || self.vertex_distance(v) == 0.0
+    }
+
+    /// A vertex whose distance is known: along its edges, and across its faces where a shortest way may go on.
+    ///
+    /// A way that passes a vertex is a shortest one only if it leaves an angle of at least π on either side where there is
+    /// surface: it goes on within the wedge of directions that do, seen from the direction it came from.
+    pub(super) fn radiate(&mut self, v: u32) {
+        let mesh = self.mesh;
+        let distance = self.vertex_distance(v);
+        for h in mesh.star(v) {
+            self.reach(mesh.tip(h), distance + mesh.length(h), Arrival::Edge(v));
+            let back = previous(h);
+            if mesh.twins()[back as usize] == NONE {
+                self.reach(
+                    mesh.origin(back),
+                    distance + mesh.length(back),
+                    Arrival::Edge(v),
+                );
+            }
+        }
+        let Some((arrival, into)) = self.arrival_direction(v) else {
+            for h in mesh.star(v) {
+                self.radiate_across(h, 0.0, TAU);
+            }
+            return;
+        };
+        let low = PI - WEDGE_SLACK;
+        let is_boundary = mesh.is_boundary_vertex(v);
+        let high = if is_boundary {
+            f64::INFINITY
+        } else {
+            mesh.angle(v) - low
+        };
+        // Counter-clockwise from the direction of arrival, face by face.
+        let (mut at, mut begin) = (Some(arrival), -into);
+        while let Some(h) = at.filter(|_| begin < high) {
+            let end = begin + mesh.corner_angle(h);
+            if end > low {
+                self.radiate_across(h, low - begin, high - begin);
+            }
+            (at, begin) = (mesh.counter_clockwise(h), end);
+        }
+        if !is_boundary {
+            return;
+        }
+        let (mut at, mut begin) = (mesh.clockwise(arrival), into);
+        while let Some(h) = at {
+            let end = begin + mesh.corner_angle(h);
+            if end > low {
+                self.radiate_across(h, 0.0, end - low);
+            }
+            (at, begin) = (mesh.clockwise(h), end);
+        }
+    }
+
+    /// The direction from which the shortest way reaches a vertex: an outgoing half-edge, and the angle from it into its face.
+    /// `None` at a source.
+    fn arrival_direction(&self, v: u32) -> Option<(u32, f64)> {
+        let mesh = self.mesh;
+        let angle = |from: DVec2, to: DVec2| from.perp_dot(to).atan2(from.dot(to)).max(0.0);
+        match self.arrival(v) {
+            Arrival::None => None,
+            Arrival::Source(number) => {
+                let source = self.sources[number as usize];
+                let h = mesh
+                    .star(v)
+                    .find(|&h| mesh.face_contains(face_of(h), source))?;
+                let to = local_coordinates(mesh, h, source);
+                (to != DVec2::ZERO).then(|| (h, angle(DVec2::X, to)))
+            }
+            Arrival::Edge(u) => mesh.star(v).find_map(|h| {
+                if mesh.tip(h) == u {
+                    Some((h, 0.0))
+                } else if mesh.apex(h) == u {
+                    Some((h, mesh.corner_angle(h)))
+                } else {
+                    None
+                }
+            }),
+            Arrival::Window {
+                halfedge, source, ..
+            } => {
+                let top = apex(mesh, halfedge);
+                Some((previous(halfedge), angle(-top, source - top)))
+            }
+        }
+    }
+
+    /// Puts a window on the edge opposite to the origin of `h`, for directions at angles `from` to `to` from `h`.
+    fn radiate_across(&mut self, h: u32, from: f64, to: f64) {
+        let mesh = self.mesh;
+        let (v, opposite) = (mesh.origin(h), next(h));
+        let twin = mesh.twins()[opposite as usize];
+        if twin == NONE {
+            return;
+        }
+        let (length, top) = (mesh.length(opposite), apex(mesh, opposite));
+        let corner = mesh.corner_angle(h);
+        let foot = |angle: f64| {
+            let direction = DVec2::from_angle(angle).rotate(-top);
+            (top.x - direction.x * top.y / direction.y).clamp(0.0, length)
+        };
+        let low = if from > 0.0 { foot(from) } else { 0.0 };
+        let high = if to < corner { foot(to) } else { length };
+        if low < high {
+            self.insert(
+                twin,
+                Window {
+                    start: length - high,
+                    end: length - low,
+                    source: DVec2::new(length - top.x, -top.y),
+                    base: self.vertex_distance(v),
+                    origin: v,
+                    older: NONE,
+                },
+            );
+        }
+    }
+}
