@@ -155,12 +155,7 @@ impl<'m> PathFinder<'m> {
             return self.shortest(from, to);
         }
         strip_along(self.mesh, &joined, &faces, &mut self.shortener.strip);
-        // The guide chooses the class; it is not given up for a neighbouring one.
-        let neighbours = std::mem::replace(&mut self.neighbours, false);
-        let done = self.shorten(from, to).map(drop);
-        self.neighbours = neighbours;
-        done?;
-        Ok(&self.path)
+        self.shorten_in_class(from, to)
     }
 
     /// The locally shortest path that shortening reaches from a caller's sequence of neighbouring faces.
@@ -181,6 +176,18 @@ impl<'m> PathFinder<'m> {
         let (from, to) = (self.mesh.canonical(from)?, self.mesh.canonical(to)?);
         self.enter(faces, from, to)?;
         self.shorten(from, to)
+    }
+
+    /// As [`PathFinder::along`], never giving up the class of paths for a neighbouring one.
+    pub(crate) fn along_in_class(
+        &mut self,
+        faces: &[u32],
+        from: SurfacePoint,
+        to: SurfacePoint,
+    ) -> Result<&GeodesicPath, Error> {
+        let (from, to) = (self.mesh.canonical(from)?, self.mesh.canonical(to)?);
+        self.enter(faces, from, to)?;
+        self.shorten_in_class(from, to)
     }
 
     /// The shortest path within a caller's sequence of faces, without any update: taut, but not in general a geodesic.
@@ -271,6 +278,19 @@ impl<'m> PathFinder<'m> {
     fn shorten(&mut self, from: SurfacePoint, to: SurfacePoint) -> Result<&GeodesicPath, Error> {
         self.shorten_observed(from, to, |_, _| {})?;
         self.path.set(self.mesh, &self.shortener, &mut self.strip);
+        Ok(&self.path)
+    }
+
+    /// As [`PathFinder::shorten`], within the class of paths that the strip begins in.
+    fn shorten_in_class(
+        &mut self,
+        from: SurfacePoint,
+        to: SurfacePoint,
+    ) -> Result<&GeodesicPath, Error> {
+        let neighbours = std::mem::replace(&mut self.neighbours, false);
+        let done = self.shorten(from, to).map(drop);
+        self.neighbours = neighbours;
+        done?;
         Ok(&self.path)
     }
 

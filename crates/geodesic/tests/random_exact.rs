@@ -41,7 +41,10 @@ fn failures(name: &str, mesh: &Mesh, random: &mut meshes::Random, triples: usize
             format!("triangle inequality: {ab} {bc} {ca}"),
         );
         match back.distance(b, a) {
-            Ok(ba) => expect((ab - ba).abs() <= tolerance, format!("{ab} there, {ba} back")),
+            Ok(ba) => expect(
+                (ab - ba).abs() <= tolerance,
+                format!("{ab} there, {ba} back"),
+            ),
             Err(error) => expect(false, error.to_string()),
         }
         match finder.shortest(a, b) {

@@ -76,7 +76,7 @@ impl DistanceField<'_, '_> {
         faces.dedup();
         faces.reverse();
         let joined = join_around_vertices(mesh, &faces);
-        finder.taut(&joined, source, to).cloned()
+        finder.along_in_class(&joined, source, to).cloned()
     }
 
     /// Goes back from a point to the vertex or source from which its last straight stretch comes.
@@ -129,15 +129,11 @@ impl DistanceField<'_, '_> {
                 Arrival::None => return Err(nowhere),
             },
         };
-        self.unfold_back(halfedge, unfolded, origin, point, faces)?;
-        Ok(if origin & POINT_SOURCE == 0 {
-            Back::Vertex(origin)
-        } else {
-            source(origin & !POINT_SOURCE)
-        })
+        self.unfold_back(halfedge, unfolded, origin, point, faces)
     }
 
-    /// Walks straight from a point of the face of `h` through `h` towards an unfolded source, until the source's face.
+    /// Walks straight from a point of the face of `h` through `h` towards an unfolded source, until the source's face or a
+    /// vertex on the way.
     fn unfold_back(
         &self,
         mut h: u32,
@@ -145,16 +141,35 @@ impl DistanceField<'_, '_> {
         origin: u32,
         mut point: DVec2,
         faces: &mut Vec<u32>,
-    ) -> Result<(), Error> {
+    ) -> Result<Back, Error> {
         let mesh = self.sweep.mesh();
         faces.push(face_of(h));
+        let ends = [
+            (mesh.origin(h), DVec2::ZERO),
+            (mesh.tip(h), DVec2::new(mesh.length(h), 0.0)),
+        ];
+        for (v, end) in ends {
+            if is_on_the_way(point, source, end) {
+                return Ok(Back::Vertex(v));
+            }
+        }
         let limit = faces.len() + 2 * mesh.face_count() + 10;
         loop {
             let twin = mesh.twins()[h as usize];
-            if twin == NONE || faces.len() > limit {
+            if faces.len() > limit {
                 return Err(Error::NotConverged {
                     updates: faces.len(),
                 });
+            }
+            if twin == NONE {
+                // The way touches the boundary at a vertex, and rounding (on needles, much more than `PASSING`) takes it
+                // across.
+                let x = point.x - (source.x - point.x) * point.y / (source.y - point.y);
+                return Ok(Back::Vertex(if 2.0 * x < mesh.length(h) {
+                    mesh.origin(h)
+                } else {
+                    mesh.tip(h)
+                }));
             }
             let f = face_of(twin);
             faces.push(f);
@@ -169,7 +184,13 @@ impl DistanceField<'_, '_> {
             let c = apex(mesh, twin);
             // The source is in this face if it is not beyond both other edges.
             if there && is_inside(s, c, length) {
-                return Ok(());
+                return Ok(match origin & POINT_SOURCE {
+                    0 => Back::Vertex(origin),
+                    _ => Back::Source(self.sweep.sources()[(origin & !POINT_SOURCE) as usize]),
+                });
+            }
+            if is_on_the_way(p, s, c) {
+                return Ok(Back::Vertex(mesh.apex(twin)));
             }
             // The segment from p (below) to s (above, beyond the face) leaves to the left or the right of the apex.
             let side = (s - p).perp_dot(c - p);
@@ -187,6 +208,20 @@ impl DistanceField<'_, '_> {
             (source, point, h) = (to_edge(s), to_edge(p), edge);
         }
     }
+}
+
+/// A vertex that the straight way from `p` to `s` passes within this angle, in radians, is on it.
+///
+/// Rounding could otherwise lead the trace to the wrong side, over a boundary even. The way by the vertex is longer by the
+/// square of the angle only.
+const PASSING: f64 = 1e-12;
+
+/// Whether a vertex at `c` lies on the straight way from `p` to `s`.
+fn is_on_the_way(p: DVec2, s: DVec2, c: DVec2) -> bool {
+    let (way, aside) = (s - p, c - p);
+    way.perp_dot(aside).abs() <= PASSING * way.length() * aside.length()
+        && way.dot(aside) > 0.0
+        && aside.length() <= way.length()
 }
 
 enum Back {
