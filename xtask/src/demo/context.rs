@@ -248,19 +248,30 @@ impl Context {
         caption: &str,
         alt: &str,
     ) -> Result<()> {
-        let picture = self.picture_of(name, scene, camera);
+        let picture = self.rendered(name, scene, camera, self.width(), self.samples());
         self.file(&format!("{name}.exr"), |file| picture.write_exr(file))?;
         self.picture(name, &picture.image(), caption, alt)
     }
 
-    /// Renders a scene at the size asked for, for an animation or for pictures side by side.
+    /// One frame of an animation: half the size of a picture and a quarter of its samples, for there are many.
     #[must_use]
-    pub fn picture_of(&self, what: &str, scene: &Scene, camera: &Camera) -> RenderedPicture {
-        let (width, height) = (self.width(), self.height());
+    pub fn frame_of(&self, what: &str, scene: &Scene, camera: &Camera) -> RenderedPicture {
+        self.rendered(what, scene, camera, self.width() / 2, self.samples() / 4)
+    }
+
+    fn rendered(
+        &self,
+        what: &str,
+        scene: &Scene,
+        camera: &Camera,
+        width: u32,
+        samples: u32,
+    ) -> RenderedPicture {
+        let height = (f64::from(width) / self.aspect()).round().max(1.0) as u32;
         let options = Options {
-            width,
+            width: width.max(1),
             height,
-            samples: self.samples(),
+            samples: samples.max(1),
             seed: self.seed(),
         };
         let bar = self.progress(what, u64::from(height));
