@@ -112,9 +112,9 @@ pub use pivot::Update;
 pub use straightest::{AtBoundary, Stop, Straightest, Trace};
 pub use strip::Side;
 pub use surface::{
-    ClosedTorusGeodesic, Convergence, LevelPath, PatchLevels, SmoothGeodesic, SmoothSurface,
-    SurfaceJet, SurfaceRay, TorusSurface, closed_torus_geodesic, geodesic_between, trace_smooth,
-    trace_smooth_points,
+    ClosedTorusGeodesic, Convergence, LevelPath, PatchLevels, Scheme, SmoothGeodesic,
+    SmoothSurface, SubdivisionSurface, SurfaceJet, SurfaceRay, TorusSurface, closed_torus_geodesic,
+    geodesic_between, trace_smooth, trace_smooth_points,
 };
 pub use surface_point::{OUTSIDE, SNAP, SurfacePoint};
 pub use torus::TorusClasses;

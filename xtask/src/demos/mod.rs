@@ -71,7 +71,7 @@ mod geodesic_loop;
 
 mod geodesic_patch;
 
-// mod geodesic_surface;
+mod geodesic_surface;
 
 mod mass_points;
 
@@ -116,7 +116,7 @@ pub fn all() -> Vec<Entry> {
         entry::<geodesic::Geodesic>(),
         entry::<geodesic_loop::GeodesicLoop>(),
         entry::<geodesic_patch::GeodesicPatch>(),
-        // entry::<geodesic_surface::GeodesicSurface>(),
+        entry::<geodesic_surface::GeodesicSurface>(),
         entry::<mass_points::MassPoints>(),
         entry::<minkowski::Minkowski>(),
         entry::<ovals::Ovals>(),

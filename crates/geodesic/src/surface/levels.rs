@@ -4,13 +4,12 @@
 use bezier_mass::{BSplineSurface, BezierPatch, MassPoint};
 use glam::{DVec2, DVec3};
 
-use super::carry::tighten_through;
+use super::carry::{sequence, tighten_through};
 use super::convergence::Convergence;
 use super::grid::Grid;
 use super::net::{Axis, BezierNet};
-use crate::exact::join_around_vertices;
 use crate::mesh::Mesh;
-use crate::{Error, PathFinder};
+use crate::{Error, PathFinder, SurfacePoint};
 
 /// The control nets of a Bézier patch, or of the Bézier patches of a spline surface, after 0, 1, 2, ... midpoint
 /// subdivisions, as meshes: they converge to the surface with the square of their step.
@@ -91,6 +90,17 @@ impl PatchLevels {
         )
     }
 
+    /// The point of this level's mesh that belongs to a parameter point.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutsideDomain`].
+    pub fn point(&self, uv: DVec2) -> Result<SurfacePoint, Error> {
+        let axes = &self.net.axes;
+        check(axes, uv)?;
+        Ok(Grid::new(axes).point(place(axes, uv)))
+    }
+
     /// Goes on to the next level: one midpoint subdivision in both directions.
     ///
     /// # Errors
@@ -155,19 +165,16 @@ impl PatchLevels {
     /// The path on this level from the first to the last point of a way in the parameter plane.
     fn path_along(&self, way: &[DVec2]) -> Result<LevelPath, Error> {
         let axes = &self.net.axes;
-        let outside = |p: &&DVec2| !(axes[0].contains(p.x) && axes[1].contains(p.y));
-        if let Some(p) = way.iter().find(outside) {
-            return Err(Error::OutsideDomain { u: p.x, v: p.y });
-        }
+        way.iter().try_for_each(|&uv| check(axes, uv))?;
         let places = places(axes, way);
         let [from, .., to] = places[..] else {
             return Err(Error::ShortLoop { points: way.len() });
         };
         let grid = Grid::new(axes);
         let mesh = self.mesh()?;
-        let faces = join_around_vertices(&mesh, &grid.faces_met(&places));
         let [start, end] = [from, to].map(|place| mesh.canonical(grid.point(place)));
         let (start, end) = (start?, end?);
+        let faces = sequence(&mesh, grid.faces_met(&places), start, end);
         let mut finder = PathFinder::new(&mesh).with_neighbouring_classes(false);
         let path = if axes.iter().any(|axis| axis.closed) {
             &tighten_through(&mesh, &faces, start, end)?
@@ -188,11 +195,23 @@ impl PatchLevels {
     }
 }
 
+fn check(axes: &[Axis; 2], uv: DVec2) -> Result<(), Error> {
+    if axes[0].contains(uv.x) && axes[1].contains(uv.y) {
+        Ok(())
+    } else {
+        Err(Error::OutsideDomain { u: uv.x, v: uv.y })
+    }
+}
+
+/// A parameter point in units of cells.
+fn place(axes: &[Axis; 2], uv: DVec2) -> DVec2 {
+    DVec2::new(axes[0].to_cells(uv.x), axes[1].to_cells(uv.y))
+}
+
 /// A way in units of cells. A segment that is straight in the parameters has a corner where it passes from a span to one of
 /// another width.
 fn places(axes: &[Axis; 2], way: &[DVec2]) -> Vec<DVec2> {
-    let place = |p: DVec2| DVec2::new(axes[0].to_cells(p.x), axes[1].to_cells(p.y));
-    let mut places: Vec<DVec2> = way.first().copied().map(place).into_iter().collect();
+    let mut places: Vec<DVec2> = way.first().map(|&uv| place(axes, uv)).into_iter().collect();
     for ends in way.windows(2) {
         let along = ends[1] - ends[0];
         let mut cuts: Vec<f64> = Vec::new();
@@ -204,8 +223,8 @@ fn places(axes: &[Axis; 2], way: &[DVec2]) -> Vec<DVec2> {
             cuts.extend(breakpoints.iter().map(|b| (b - from) / step));
         }
         cuts.sort_by(f64::total_cmp);
-        places.extend(cuts.iter().map(|&t| place(ends[0] + t * along)));
-        places.push(place(ends[1]));
+        places.extend(cuts.iter().map(|&t| place(axes, ends[0] + t * along)));
+        places.push(place(axes, ends[1]));
     }
     places
 }

@@ -7,7 +7,9 @@ mod convergence;
 mod grid;
 mod levels;
 mod net;
+mod polyhedron;
 mod smooth;
+mod subdivision;
 mod torus_loops;
 mod trace;
 
@@ -15,5 +17,6 @@ pub use between::{SmoothGeodesic, geodesic_between};
 pub use convergence::Convergence;
 pub use levels::{LevelPath, PatchLevels};
 pub use smooth::{SmoothSurface, SurfaceJet, TorusSurface};
+pub use subdivision::{Scheme, SubdivisionSurface};
 pub use torus_loops::{ClosedTorusGeodesic, closed_torus_geodesic};
 pub use trace::{SurfaceRay, trace_smooth, trace_smooth_points};
