@@ -3,7 +3,8 @@
 use glam::DVec2;
 
 use crate::fan::Run;
-use crate::{Fan, Medium, Ray};
+use crate::model::Landing;
+use crate::{Fan, Ray};
 
 /// A wave's arrival at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,12 +14,12 @@ pub struct Arrival {
     pub time: f64,
     /// The source's parameter of the ray.
     pub parameter: f64,
-    /// The ray on its last leg.
+    /// The ray as it starts its last leg.
     pub ray: Ray,
     /// The width of the ray tube at the point, per unit of the source's parameter: the amplitude falls with its square root.
     pub tube_width: f64,
-    /// Whether the ray has touched the caustic on its last leg.
-    pub beyond_caustic: bool,
+    /// How often the ray has touched a caustic on its way: each time the phase jumps by a quarter of a period.
+    pub caustics: u32,
 }
 
 impl Arrival {
@@ -30,21 +31,22 @@ impl Arrival {
     }
 }
 
-/// A ray counts as passing through a point at this share of the model's size: the time is stationary there, so that its own
-/// error is the square of it.
-const THROUGH: f64 = 1e-10;
+/// A ray that passes a receiver at less than this share of the model's size is carried through it by its own derivatives:
+/// the time, corrected to second order, is then exact to rounding.
+const NEAR: f64 = 1e-6;
+/// The step of the parameter that does so is at most this share of a strip.
+const SMALL_STEP: f64 = 1e-3;
+/// On a caustic the last step may be large though the ray passes: at this share of the model's size it does.
+const THROUGH: f64 = 1e-12;
 /// Newton's method in a bracket, with a halving where it leaves or stalls.
 const STEPS: usize = 60;
 
 impl Fan<'_> {
-    /// All arrivals at a point, by increasing time.
-    ///
-    /// Rays through the point are zeros of its signed distance from the rays along the fan; a pair of them between two
-    /// sampled rays shows in the distance's slopes.
+    /// All arrivals at a point, by increasing time. For many points [`Fan::visit_arrivals`] is quicker.
     #[must_use]
     pub fn arrivals(&self, point: DVec2) -> Vec<Arrival> {
         let mut found = Vec::new();
-        self.visit_arrivals(point, |arrival| found.push(arrival));
+        self.arrivals_in_any_order(point, |arrival| found.push(arrival));
         found.sort_by(|a, b| a.time.total_cmp(&b.time));
         found
     }
@@ -53,7 +55,7 @@ impl Fan<'_> {
     #[must_use]
     pub fn first_arrival(&self, point: DVec2) -> Option<Arrival> {
         let mut first: Option<Arrival> = None;
-        self.visit_arrivals(point, |arrival| {
+        self.arrivals_in_any_order(point, |arrival| {
             if first.is_none_or(|known| arrival.time < known.time) {
                 first = Some(arrival);
             }
@@ -61,190 +63,208 @@ impl Fan<'_> {
         first
     }
 
-    fn visit_arrivals(&self, point: DVec2, mut found: impl FnMut(Arrival)) {
+    fn arrivals_in_any_order(&self, point: DVec2, mut found: impl FnMut(Arrival)) {
         if !point.is_finite() {
             return;
         }
-        let layer = self.last_layer();
-        let left = self.code().steps.last().map(|step| step.interface);
-        let medium = &self.model().media()[layer];
         for run in self.runs() {
-            for i in 0..run.sides.len().saturating_sub(1) {
-                let (low, high) = (run.sides[i].value(point), run.sides[i + 1].value(point));
-                let crosses = (low <= 0.0) != (high <= 0.0);
-                // The same side, and both ends lead towards zero: there may be two rays in between.
-                let may_touch = !crosses
-                    && low * run.sides[i].slope(point) < 0.0
-                    && high * run.sides[i + 1].slope(point) > 0.0;
-                let brackets = match (crosses, may_touch) {
-                    (true, _) => [Some([run.parameters[i], run.parameters[i + 1]]), None],
-                    (_, true) => self.split_at_extremum(run, i, point),
-                    _ => continue,
-                };
-                for bracket in brackets.into_iter().flatten() {
-                    let Some((parameter, ray)) = self.refine(run, i, bracket, point) else {
-                        continue;
-                    };
-                    if self.model().reaches(&ray, layer, left, point) {
-                        found(arrival(parameter, ray, medium, point));
-                    }
-                }
+            for index in 0..run.strips.len() {
+                self.meet(run, index, point, &mut found);
             }
         }
     }
 
-    /// The two brackets around a pair of zeros between two samples, if the distance changes sign at all.
-    fn split_at_extremum(&self, run: &Run, i: usize, point: DVec2) -> [Option<[f64; 2]>; 2] {
-        let (start, end) = (run.parameters[i], run.parameters[i + 1]);
-        let (mut low, mut high) = (start, end);
-        let sign = run.sides[i].value(point).signum();
-        // The slope cannot lead to zero from this far.
-        let reach = (end - start)
-            * run.sides[i]
-                .slope(point)
-                .abs()
-                .max(run.sides[i + 1].slope(point).abs());
-        if run.sides[i].value(point).abs() > reach {
-            return [None, None];
+    /// Calls `found` for each arrival of a strip at a point.
+    ///
+    /// The distances of the point from the strip's control lines are the Bernstein coefficients of its distance from the
+    /// rays. Where they change sign there is a ray through the point, and their cubic's zero is its parameter but for the
+    /// interpolation's error, which one step of Newton's method on the exact ray removes.
+    pub(crate) fn meet(
+        &self,
+        run: &Run,
+        index: usize,
+        point: DVec2,
+        found: &mut impl FnMut(Arrival),
+    ) {
+        let distances = run.strips[index].distances(point);
+        let slack = self.slack();
+        let beyond = |sign: f64| distances.iter().all(|distance| sign * distance > slack);
+        if beyond(1.0) || beyond(-1.0) {
+            return;
         }
-        for _ in 0..STEPS {
-            let middle = 0.5 * (low + high);
-            let Some(ray) = self.ray_near(middle, &run.traces[i]) else {
-                return [None, None];
+        let (start, end) = (run.parameters[index], run.parameters[index + 1]);
+        let at = |share: f64| start + share * (end - start);
+        let right = distances.map(|distance| distance <= 0.0);
+        let changes = right.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        if changes == 1 {
+            let guess = at(only_zero(distances));
+            let bracket = Bracket {
+                low: start,
+                high: end,
+                right_at_low: right[0],
             };
-            let form = self.side_form(&ray);
-            if form.value(point) * sign <= 0.0 {
-                return [Some([start, middle]), Some([middle, end])];
-            }
-            if form.slope(point) * sign < 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-            if high - low <= f64::EPSILON {
-                break;
-            }
+            self.refine(run, index, bracket, guess, point, found);
+            return;
         }
-        [None, None]
+        // The rays nearest to the point lie between the arrivals, if there are several.
+        let mut low = (start, right[0]);
+        let high = (end, right[3]);
+        let turns = stationary(distances).into_iter().flatten();
+        for (parameter, is_right) in turns
+            .filter_map(|share| {
+                let landing = self.ray_near(run, index, at(share))?;
+                Some((at(share), self.side(&landing, point).0 <= 0.0))
+            })
+            .chain([high])
+        {
+            if is_right != low.1 {
+                let bracket = Bracket {
+                    low: low.0,
+                    high: parameter,
+                    right_at_low: low.1,
+                };
+                let guess = 0.5 * (low.0 + parameter);
+                self.refine(run, index, bracket, guess, point, found);
+            }
+            low = (parameter, is_right);
+        }
     }
 
-    /// The ray through the point inside a bracket.
+    /// A receiver closer to a strip than this may have a ray in it that the strip's cubic does not show.
+    #[inline]
+    pub(crate) fn slack(&self) -> f64 {
+        NEAR * self.model().size()
+    }
+
+    #[inline]
+    fn side(&self, landing: &Landing, point: DVec2) -> (f64, f64) {
+        let medium = &self.model().media()[self.last_layer()];
+        landing.ray.side(point, medium)
+    }
+
+    /// Finds the ray through the point inside a bracket, and reports it if it gets there.
+    #[inline]
     fn refine(
         &self,
         run: &Run,
-        i: usize,
-        [start, end]: [f64; 2],
+        index: usize,
+        mut bracket: Bracket,
+        guess: f64,
         point: DVec2,
-    ) -> Option<(f64, Ray)> {
-        let neighbour = &run.traces[i];
-        let through = THROUGH * self.model().size();
-        let value_at = |parameter: f64| {
-            let ray = self.ray_near(parameter, neighbour)?;
-            let form = self.side_form(&ray);
-            Some((form.value(point), form.slope(point), ray))
-        };
-        let (mut low, mut high) = (start, end);
-        let at_start = if start == run.parameters[i] {
-            run.sides[i].value(point)
-        } else {
-            value_at(start)?.0
-        };
-        let at_end = if end == run.parameters[i + 1] {
-            run.sides[i + 1].value(point)
-        } else {
-            value_at(end)?.0
-        };
-        let mut parameter =
-            start + (end - start) * (at_start / (at_start - at_end)).clamp(0.0, 1.0);
-        let mut best = None;
-        for step in 0..STEPS {
-            let (value, slope, ray) = value_at(parameter)?;
-            best = Some((parameter, ray));
-            if value.abs() <= through || high - low <= f64::EPSILON {
-                break;
+        found: &mut impl FnMut(Arrival),
+    ) {
+        let size = self.model().size();
+        let small = SMALL_STEP * (run.parameters[index + 1] - run.parameters[index]);
+        let mut parameter = guess;
+        for round in 0..STEPS {
+            let Some(landing) = self.ray_near(run, index, parameter) else {
+                return;
+            };
+            let (distance, slope) = self.side(&landing, point);
+            let step = -distance / slope;
+            let near = distance.abs() <= NEAR * size && step.abs() <= small;
+            let stuck = bracket.high - bracket.low <= f64::EPSILON;
+            if near || stuck || distance.abs() <= THROUGH * size {
+                let step = if near { step } else { 0.0 };
+                if self.model().reaches(&landing, self.last_layer(), point) {
+                    found(self.arrival(landing, parameter, distance, step, point));
+                }
+                return;
             }
-            if (value <= 0.0) == (at_start <= 0.0) {
-                low = parameter;
-            } else {
-                high = parameter;
-            }
-            let newton = parameter - value / slope;
-            let inside = newton > low && newton < high && step % 8 != 7;
-            parameter = if inside { newton } else { 0.5 * (low + high) };
+            bracket.narrow(parameter, distance <= 0.0);
+            parameter = bracket.next(parameter + step, round);
         }
-        best
+    }
+
+    /// The arrival by a ray that passes the point at a small `distance`, and through it after a `step` of its parameter.
+    #[inline]
+    fn arrival(
+        &self,
+        landing: Landing,
+        parameter: f64,
+        distance: f64,
+        step: f64,
+        point: DVec2,
+    ) -> Arrival {
+        let medium = &self.model().media()[self.last_layer()];
+        let ray = landing.ray;
+        let velocity = medium.group_velocity(ray.slowness);
+        let speed = velocity.length();
+        // T(t) = time + <s, X - x> has the derivative <s', X - x>, which is proportional to the distance and to it alone:
+        // the integral over the step is half of the product.
+        let rate = ray.slowness_change.perp_dot(velocity) / speed * -distance;
+        let time = ray.time_at(point) + 0.5 * rate * step;
+        let there = ray.after(velocity.dot(point - ray.point) / (speed * speed), medium);
+        Arrival {
+            time,
+            parameter: parameter + step,
+            ray: ray.moved(step),
+            tube_width: (there.point_change.perp_dot(velocity) / speed).abs(),
+            caustics: landing.caustics + u32::from(ray.is_beyond_caustic_at(&there, velocity)),
+        }
     }
 }
 
-fn arrival(parameter: f64, ray: Ray, medium: &Medium, point: DVec2) -> Arrival {
-    let velocity = medium.group_velocity(ray.slowness);
-    let travel = velocity.dot(point - ray.point) / velocity.length_squared();
-    let there = ray.after(travel, medium);
-    let side = |ray: &Ray| ray.point_change.perp_dot(velocity);
-    Arrival {
-        time: ray.time_at(point),
-        parameter,
-        ray,
-        tube_width: there.tube_width(medium),
-        beyond_caustic: side(&ray) * side(&there) < 0.0,
+/// Parameters between which the point changes from one side of the ray to the other.
+struct Bracket {
+    low: f64,
+    high: f64,
+    right_at_low: bool,
+}
+
+impl Bracket {
+    fn narrow(&mut self, parameter: f64, is_right: bool) {
+        if is_right == self.right_at_low {
+            self.low = parameter;
+        } else {
+            self.high = parameter;
+        }
+    }
+
+    /// Newton's guess if it lies inside, the middle otherwise and now and then.
+    fn next(&self, guess: f64, round: usize) -> f64 {
+        if guess > self.low && guess < self.high && round % 8 != 7 {
+            guess
+        } else {
+            0.5 * (self.low + self.high)
+        }
     }
 }
 
-/// The first arrival at a point over several fans (one a code), and which of them brings it.
-#[must_use]
-pub fn first_arrival(fans: &[Fan<'_>], point: DVec2) -> Option<(usize, Arrival)> {
-    let firsts = fans
-        .iter()
-        .enumerate()
-        .filter_map(|(index, fan)| Some((index, fan.first_arrival(point)?)));
-    firsts.min_by(|a, b| a.1.time.total_cmp(&b.1.time))
-}
-
-/// First arrivals on a grid of `columns` by `rows` points over a box, row by row from its lower corner; none where nothing
-/// arrives.
-#[must_use]
-pub fn travel_time_table(
-    fans: &[Fan<'_>],
-    low: DVec2,
-    high: DVec2,
-    columns: usize,
-    rows: usize,
-) -> Vec<Option<f64>> {
-    let share = |i: usize, count: usize| i as f64 / count.saturating_sub(1).max(1) as f64;
-    let points: Vec<DVec2> = (0..columns * rows)
-        .map(|i| {
-            low + (high - low) * DVec2::new(share(i % columns, columns), share(i / columns, rows))
-        })
-        .collect();
-    for_each_point(&points, |point| {
-        first_arrival(fans, point).map(|(_, arrival)| arrival.time)
-    })
-}
-
-/// The answers at all points in order, on all cores with the feature `rayon`.
-fn for_each_point<T: Send>(points: &[DVec2], answer: impl Fn(DVec2) -> T + Sync) -> Vec<T> {
-    #[cfg(feature = "rayon")]
-    {
-        use rayon::prelude::*;
-        points.par_iter().map(|&point| answer(point)).collect()
+/// The zero in `[0, 1]` of a cubic with Bernstein coefficients of one sign change, near enough for a start.
+#[inline]
+fn only_zero([a, b, c, d]: [f64; 4]) -> f64 {
+    // Newton's method in powers of t from the chord's zero; the coefficients are close to a line's.
+    let (slope, square, cube) = (
+        3.0 * (b - a),
+        3.0 * (a - 2.0 * b + c),
+        d - a + 3.0 * (b - c),
+    );
+    let mut t = a / (a - d);
+    for _ in 0..2 {
+        let value = ((cube * t + square) * t + slope) * t + a;
+        let next = t - value / ((3.0 * cube * t + 2.0 * square) * t + slope);
+        t = if next.is_nan() {
+            0.5
+        } else {
+            next.clamp(0.0, 1.0)
+        };
     }
-    #[cfg(not(feature = "rayon"))]
-    {
-        points.iter().map(|&point| answer(point)).collect()
-    }
+    t
 }
 
-/// A section: for every receiver in order all arrivals of all fans, `(fan, arrival)`, by increasing time.
-#[must_use]
-pub fn section(fans: &[Fan<'_>], receivers: &[DVec2]) -> Vec<Vec<(usize, Arrival)>> {
-    let gather = |receiver: DVec2| {
-        let all = fans
-            .iter()
-            .enumerate()
-            .flat_map(|(index, fan)| fan.arrivals(receiver).into_iter().map(move |a| (index, a)));
-        let mut arrivals: Vec<_> = all.collect();
-        arrivals.sort_by(|a, b| a.1.time.total_cmp(&b.1.time));
-        arrivals
-    };
-    for_each_point(receivers, gather)
+/// The parameters in `(0, 1)` where a cubic in Bernstein form is stationary, in order.
+fn stationary([a, b, c, d]: [f64; 4]) -> [Option<f64>; 2] {
+    // p + 2 (q - p) t + (p - 2 q + r) t² for the slopes p, q, r.
+    let (p, q, r) = (b - a, c - b, d - c);
+    let (square, half, constant) = (p - 2.0 * q + r, q - p, p);
+    let root = (half * half - square * constant).sqrt();
+    let larger = -(half + root.copysign(half));
+    let inside = |t: f64| (t > 0.0 && t < 1.0).then_some(t);
+    let (one, two) = (inside(larger / square), inside(constant / larger));
+    match (one, two) {
+        (Some(s), Some(t)) if s > t => [Some(t), Some(s)],
+        (Some(s), Some(t)) if s == t => [Some(s), None],
+        (one, two) => [one, two],
+    }
 }

@@ -50,11 +50,25 @@ pub enum Error {
         /// Number of interfaces.
         interfaces: usize,
     },
-    /// A ray that does not meet the interface that it was sent to.
-    #[error("the ray from ({}, {}) does not meet the interface", from.x, from.y)]
+    /// A ray that does not meet the interface that it was sent to inside the model's box.
+    #[error("the ray from ({}, {}) does not meet the interface in the model", from.x, from.y)]
     Miss {
         /// Where the ray started.
         from: DVec2,
+    },
+    /// A ray that meets another interface before the one that it was sent to.
+    #[error("the ray from ({}, {}) meets interface {interface} first", from.x, from.y)]
+    Blocked {
+        /// Where the ray started.
+        from: DVec2,
+        /// The interface in its way.
+        interface: usize,
+    },
+    /// Rays next to each other that are far apart behind an interface: the one grazes it, the other meets it farther on.
+    #[error("the fan is torn at parameter {parameter}: a ray grazes an interface")]
+    Torn {
+        /// The source's parameter.
+        parameter: f64,
     },
     /// No transmitted ray: the tangential slowness is larger than any slowness of the medium behind.
     #[error("total internal reflection at ({}, {}): the tangential slowness is {tangential_slowness}", at.x, at.y)]

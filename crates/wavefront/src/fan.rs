@@ -2,7 +2,9 @@
 
 use glam::DVec2;
 
-use crate::{Code, Error, Front, FrontTolerance, Model, Ray, Source, Trace};
+use crate::model::{Failure, Landing};
+use crate::strip::{Knot, Strip};
+use crate::{Code, Cut, Error, Front, FrontTolerance, Model, Ray, Source, Trace};
 
 /// The exact rays of a source with one history, as a table over the source's parameter from which rays to given points
 /// are found and refined, and fronts are fitted.
@@ -27,28 +29,11 @@ pub struct Fan<'m> {
 pub(crate) struct Run {
     pub(crate) parameters: Vec<f64>,
     pub(crate) traces: Vec<Trace>,
-    /// For each ray the linear function of a point whose zeros lie on the ray, `<side, X> - offset`, with its derivative
-    /// along the fan: four lists, so that the scan of a receiver over all rays is one straight loop.
-    pub(crate) sides: Vec<SideForm>,
-}
-
-/// `f(X) = <side, X> - offset` is the signed distance of X from a ray, `slope` its derivative along the fan.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SideForm {
-    pub(crate) side: DVec2,
-    pub(crate) offset: f64,
-    pub(crate) side_slope: DVec2,
-    pub(crate) offset_slope: f64,
-}
-
-impl SideForm {
-    pub(crate) fn value(&self, point: DVec2) -> f64 {
-        self.side.dot(point) - self.offset
-    }
-
-    pub(crate) fn slope(&self, point: DVec2) -> f64 {
-        self.side_slope.dot(point) - self.offset_slope
-    }
+    /// Between each two rays.
+    pub(crate) strips: Vec<Strip>,
+    last: Option<Knot>,
+    /// Why it starts and ends where it does; none at the ends of the source.
+    cuts: [Option<Cut>; 2],
 }
 
 /// How densely a fan is sampled.
@@ -57,28 +42,31 @@ impl SideForm {
 pub struct FanOptions {
     /// Rays to begin with, over the whole source.
     pub rays: usize,
-    /// Neighbours on the last leg may differ in direction by this angle (radians) before rays are added between them.
-    pub turning: f64,
-    /// Neighbours may leave the last interface at places this share of the model's size apart.
-    pub spacing: f64,
+    /// Rays are added until one in the middle of two is where their cubic interpolation expects it, to this share of the
+    /// model's size. Two arrivals at a receiver are told apart if the caustic between them is farther away than this.
+    pub accuracy: f64,
 }
 
 impl Default for FanOptions {
     fn default() -> Self {
         Self {
-            rays: 128,
-            turning: 0.1,
-            spacing: 0.05,
+            rays: 64,
+            accuracy: 1e-5,
         }
     }
 }
 
 /// A gap in a fan is bracketed to this share of the source's parameter.
 const BOUNDARY: f64 = 1e-13;
-/// Rays are added between neighbours up to this many times: 2^-20 of the first spacing.
-const REFINEMENTS: u32 = 20;
+/// Between two rays that fail in different ways a window with rays is looked for by this many halvings.
+const WINDOW_SEARCH: u32 = 8;
 /// A fan never holds more rays than this.
 const MOST_RAYS: usize = 1 << 16;
+/// Fronts keep this share of a run off a boundary: there, where rays graze, the very boundary ray has no neighbours.
+const FRONT_INSET: f64 = 1e-9;
+
+/// A ray of the source that was tried: its knot, or what stopped it.
+type Trial = (f64, Result<Knot, Failure>);
 
 impl<'m> Fan<'m> {
     /// Traces the rays.
@@ -95,8 +83,7 @@ impl<'m> Fan<'m> {
         source.check()?;
         for (what, value) in [
             ("the number of rays", options.rays as f64),
-            ("turning", options.turning),
-            ("spacing", options.spacing),
+            ("the accuracy of a fan", options.accuracy),
         ] {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(Error::OutOfRange { what, value });
@@ -118,7 +105,7 @@ impl<'m> Fan<'m> {
             layers,
             runs: Vec::new(),
         };
-        fan.sample(options);
+        fan.runs = Sampler::new(&fan, options).sample(options.rays);
         Ok(fan)
     }
 
@@ -142,9 +129,13 @@ impl<'m> Fan<'m> {
 
     /// The stretches of the source's parameter that are illuminated with this code.
     pub fn illuminated(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
-        self.runs
-            .iter()
-            .filter_map(|run| Some([*run.parameters.first()?, *run.parameters.last()?]))
+        self.runs.iter().filter_map(Run::range)
+    }
+
+    /// Where the wave is cut, and why: at total reflection, at the edge of a shadow, at the model's box. In order of the
+    /// source's parameter.
+    pub fn cuts(&self) -> impl Iterator<Item = &Cut> {
+        self.runs.iter().flat_map(|run| &run.cuts).flatten()
     }
 
     /// The number of rays in the table.
@@ -163,42 +154,59 @@ impl<'m> Fan<'m> {
     /// # Errors
     /// As [`Model::trace`].
     pub fn trace(&self, parameter: f64) -> Result<Trace, Error> {
-        let layer = self.layers.first().copied().unwrap_or(0);
-        let start = self.source.ray(parameter, &self.model.media()[layer])?;
-        self.model.trace(start, layer, &self.code)
+        self.attempt(parameter).map_err(|failure| failure.error)
     }
 
-    /// The fronts of the last leg as splines of class-3 arcs, one for each illuminated stretch.
+    fn attempt(&self, parameter: f64) -> Result<Trace, Failure> {
+        let start = self
+            .start(parameter)
+            .map_err(|error| Failure { step: 0, error })?;
+        self.model.trace_along(start, &self.layers, &self.code)
+    }
+
+    fn start(&self, parameter: f64) -> Result<Ray, Error> {
+        let layer = self.layers.first().copied().unwrap_or(0);
+        self.source.ray(parameter, &self.model.media()[layer])
+    }
+
+    /// The fronts of the last leg as splines of class-3 arcs, one or more for each illuminated stretch: a sliver of rays
+    /// that no arc can follow, next to a grazing ray, is left out and is a [`Cut`] of the two fronts at its sides.
     ///
     /// # Errors
-    /// As [`Front::fit`].
+    /// [`Error::BadSpeed`] if the last medium's indicatrix is no ellipse; [`Error::OutOfRange`] for the tolerance;
+    /// [`Error::NotConverged`] if it is too small for almost all of the front.
     pub fn fronts(&self, tolerance: FrontTolerance) -> Result<Vec<Front>, Error> {
         let medium = &self.model.media()[self.last_layer()];
-        let last = |parameter: f64| -> Result<Ray, Error> {
-            self.trace(parameter)?
-                .last()
-                .copied()
-                .ok_or(Error::Miss { from: DVec2::NAN })
-        };
-        let ends = |run: &Run| Some([*run.parameters.first()?, *run.parameters.last()?]);
         let mut fronts = Vec::new();
-        for [start, end] in self.runs.iter().filter_map(ends) {
-            // Total reflection starts where rays graze: the very boundary ray has no neighbours that could be fitted.
-            let inset = BOUNDARY.max(1e-9 * (end - start));
-            let range = if self.runs.len() == 1 && start == 0.0 && end == 1.0 {
-                [0.0, 1.0]
-            } else {
-                [start + inset, end - inset]
+        for run in &self.runs {
+            let Some([start, end]) = run.range() else {
+                continue;
             };
-            if range[1] > range[0] {
-                fronts.push(Front::fit(
-                    medium,
-                    self.last_layer(),
-                    &self.breaks(range),
-                    last,
-                    tolerance,
-                )?);
+            let inset = |cut: &Option<Cut>| {
+                if cut.is_some() {
+                    BOUNDARY.max(FRONT_INSET * (end - start))
+                } else {
+                    0.0
+                }
+            };
+            let range = [start + inset(&run.cuts[0]), end - inset(&run.cuts[1])];
+            if range[1] <= range[0] {
+                continue;
             }
+            let ray = |parameter: f64| {
+                let index = run.strip_at(parameter);
+                self.ray_near(run, index, parameter)
+                    .map(|landing| landing.ray)
+                    .ok_or(Error::Miss { from: DVec2::NAN })
+            };
+            fronts.extend(Front::fit_stretch(
+                medium,
+                self.last_layer(),
+                &self.breaks(range),
+                ray,
+                tolerance,
+                run.cuts.clone(),
+            )?);
         }
         Ok(fronts)
     }
@@ -217,168 +225,218 @@ impl<'m> Fan<'m> {
         &self.runs
     }
 
-    /// The ray on its last leg at a parameter next to a traced neighbour.
-    pub(crate) fn ray_near(&self, parameter: f64, neighbour: &Trace) -> Option<Ray> {
-        let layer = self.layers.first().copied().unwrap_or(0);
-        let start = self
-            .source
-            .ray(parameter, &self.model.media()[layer])
-            .ok()?;
+    /// The ray on its last leg at a parameter in a strip, guided by the impacts of the strip's ends.
+    #[inline]
+    pub(crate) fn ray_near(&self, run: &Run, index: usize, parameter: f64) -> Option<Landing> {
+        let start = self.start(parameter).ok()?;
+        let (one, two) = (run.traces.get(index)?, run.traces.get(index + 1)?);
+        let share = (parameter - run.parameters[index])
+            / (run.parameters[index + 1] - run.parameters[index]);
+        let expected = |step: usize| {
+            let (a, b) = (one.impacts[step].parameter, two.impacts[step].parameter);
+            a + share * (b - a)
+        };
         let guided = self
             .model
-            .trace_near(start, &self.layers, &self.code, &neighbour.impacts);
+            .trace_near(start, &self.layers, &self.code, expected);
         guided.or_else(|| {
+            let trace = self
+                .model
+                .trace_along(start, &self.layers, &self.code)
+                .ok()?;
+            let impacts = trace.impacts.iter().map(|impact| impact.parameter);
+            let impacts: Vec<f64> = impacts.collect();
+            // Once more along its own impacts, for what is counted on the way.
             self.model
-                .trace(start, layer, &self.code)
-                .ok()?
-                .last()
-                .copied()
+                .trace_near(start, &self.layers, &self.code, |step| impacts[step])
         })
     }
+}
 
-    pub(crate) fn side_form(&self, ray: &Ray) -> SideForm {
-        let medium = &self.model.media()[self.last_layer()];
-        let velocity = medium.group_velocity(ray.slowness);
-        let change = medium.group_velocity_change(ray.slowness, ray.slowness_change);
-        let speed = velocity.length();
-        let direction = velocity / speed;
-        let turn = (change - direction * direction.dot(change)) / speed;
-        SideForm {
-            side: direction.perp(),
-            offset: direction.perp_dot(ray.point),
-            side_slope: turn.perp(),
-            offset_slope: turn.perp_dot(ray.point) + direction.perp_dot(ray.point_change),
+impl Run {
+    fn range(&self) -> Option<[f64; 2]> {
+        Some([*self.parameters.first()?, *self.parameters.last()?])
+    }
+
+    fn strip_at(&self, parameter: f64) -> usize {
+        let above = self.parameters.partition_point(|known| *known <= parameter);
+        above
+            .saturating_sub(1)
+            .min(self.strips.len().saturating_sub(1))
+    }
+}
+
+/// Fills the runs of a fan, ray by ray.
+struct Sampler<'f, 'm> {
+    fan: &'f Fan<'m>,
+    /// Lines are compared inside the circle around the model's box.
+    centre: DVec2,
+    radius: f64,
+    tolerance: f64,
+    run: Run,
+    done: Vec<Run>,
+    count: usize,
+}
+
+impl<'f, 'm> Sampler<'f, 'm> {
+    fn new(fan: &'f Fan<'m>, options: FanOptions) -> Self {
+        let [low, high] = fan.model.corners();
+        Self {
+            fan,
+            centre: 0.5 * (low + high),
+            radius: 0.5 * fan.model.size(),
+            tolerance: options.accuracy * fan.model.size(),
+            run: Run::default(),
+            done: Vec::new(),
+            count: 0,
         }
     }
 
-    fn sample(&mut self, options: FanOptions) {
-        let mut run = Run::default();
-        let mut parameters: Vec<f64> = (0..=options.rays)
-            .map(|i| i as f64 / options.rays as f64)
-            .collect();
-        parameters.extend(self.source.breaks());
+    fn sample(mut self, rays: usize) -> Vec<Run> {
+        let mut parameters: Vec<f64> = (0..=rays).map(|i| i as f64 / rays as f64).collect();
+        // A joint of the source is met from both sides.
+        for joint in self.fan.source.breaks() {
+            parameters.extend([joint - BOUNDARY, joint]);
+        }
+        parameters.retain(|parameter| *parameter >= 0.0);
         parameters.sort_by(f64::total_cmp);
         parameters.dedup();
-        let mut previous: Option<(f64, Option<Trace>)> = None;
+        let mut previous: Option<Trial> = None;
         for parameter in parameters {
-            let trace = self.trace(parameter).ok();
-            if let Some((before, known)) = previous.take() {
-                match (known, &trace) {
-                    (Some(known), Some(next)) => {
-                        self.join(&mut run, (before, &known), (parameter, next), options, 0)
-                    }
-                    (Some(known), None) => {
-                        let (end, last) = self.boundary((before, known), parameter);
-                        self.push(&mut run, end, last);
-                        self.finish(&mut run);
-                    }
-                    (None, Some(next)) => {
-                        let (start, first) = self.boundary((parameter, next.clone()), before);
-                        self.push(&mut run, start, first);
-                    }
-                    (None, None) => {}
+            let (trial, trace) = self.attempt(parameter);
+            if let Some(previous) = previous {
+                self.fill(&previous, &trial, 0);
+            }
+            self.push(&trial, trace);
+            previous = Some(trial);
+        }
+        self.finish(None);
+        self.done
+    }
+
+    fn attempt(&self, parameter: f64) -> (Trial, Trace) {
+        match self.fan.attempt(parameter) {
+            Ok(trace) => {
+                let medium = &self.fan.model.media()[self.fan.last_layer()];
+                let ray = trace.legs[trace.legs.len() - 1];
+                let knot = Knot::new(parameter, &ray, medium);
+                ((parameter, Ok(knot)), trace)
+            }
+            Err(failure) => ((parameter, Err(failure)), Trace::default()),
+        }
+    }
+
+    fn push(&mut self, trial: &Trial, trace: Trace) {
+        let (parameter, Ok(knot)) = trial else { return };
+        if let Some(last) = &self.run.last {
+            if last.parameter >= *parameter {
+                return;
+            }
+            self.run.strips.push(Strip::between(last, knot));
+        }
+        self.run.parameters.push(*parameter);
+        self.run.traces.push(trace);
+        self.run.last = Some(*knot);
+        self.count += 1;
+    }
+
+    /// Ends the run, at the end of the source or with a reason.
+    fn finish(&mut self, reason: Option<Error>) {
+        let mut run = std::mem::take(&mut self.run);
+        run.cuts[1] = reason.and_then(|reason| Cut::new(&run, reason, true));
+        if run.parameters.len() > 1 {
+            self.done.push(run);
+        }
+    }
+
+    /// Adds what is between two rays that were tried.
+    fn fill(&mut self, one: &Trial, two: &Trial, depth: u32) {
+        match (&one.1, &two.1) {
+            (Ok(a), Ok(b)) => self.join(a, b),
+            (Ok(a), Err(failure)) => {
+                let (last, trace, error) = self.boundary(a, two.0, failure);
+                if let (_, Ok(b)) = &last {
+                    self.join(a, b);
+                }
+                self.push(&last, trace);
+                self.finish(Some(error));
+            }
+            (Err(failure), Ok(b)) => {
+                let (first, trace, error) = self.boundary(b, one.0, failure);
+                self.push(&first, trace);
+                self.run.cuts[0] = Cut::new(&self.run, error, false);
+                if let (_, Ok(a)) = &first {
+                    self.join(a, b);
                 }
             }
-            if let Some(trace) = &trace {
-                self.push(&mut run, parameter, trace.clone());
+            (Err(a), Err(b)) => {
+                let alike = a.step == b.step
+                    && std::mem::discriminant(&a.error) == std::mem::discriminant(&b.error);
+                if !alike && depth < WINDOW_SEARCH {
+                    self.halve(one, two, depth);
+                }
             }
-            previous = Some((parameter, trace));
-        }
-        self.finish(&mut run);
-    }
-
-    fn push(&self, run: &mut Run, parameter: f64, trace: Trace) {
-        if run.parameters.last().is_some_and(|last| *last >= parameter) {
-            return;
-        }
-        if let Some(ray) = trace.last() {
-            run.sides.push(self.side_form(ray));
-            run.parameters.push(parameter);
-            run.traces.push(trace);
         }
     }
 
-    fn finish(&mut self, run: &mut Run) {
-        let run = std::mem::take(run);
-        if run.parameters.len() > 1 {
-            self.runs.push(run);
-        }
+    fn halve(&mut self, one: &Trial, two: &Trial, depth: u32) {
+        let (middle, trace) = self.attempt(0.5 * (one.0 + two.0));
+        self.fill(one, &middle, depth + 1);
+        self.push(&middle, trace);
+        self.fill(&middle, two, depth + 1);
     }
 
-    /// Adds rays between two neighbours until they are close; where none exists in between the run is cut.
-    fn join(
-        &mut self,
-        run: &mut Run,
-        one: (f64, &Trace),
-        two: (f64, &Trace),
-        options: FanOptions,
-        depth: u32,
-    ) {
-        if self.ray_count() + run.parameters.len() >= MOST_RAYS || self.close(one.1, two.1, options)
-        {
+    /// Adds rays between two until their strip is where the rays are; cuts the run where it never is: a ray grazes an
+    /// interface, and the next one meets it farther on.
+    fn join(&mut self, a: &Knot, b: &Knot) {
+        if self.count >= MOST_RAYS {
             return;
         }
-        if depth >= REFINEMENTS {
-            self.tear(run, one, two, options);
+        if b.parameter - a.parameter <= 2.0 * BOUNDARY {
+            if a.distance(b, self.centre, self.radius) > self.tolerance {
+                let torn = || Error::Torn {
+                    parameter: a.parameter,
+                };
+                self.finish(Some(torn()));
+                let (again, trace) = self.attempt(b.parameter);
+                self.push(&again, trace);
+                self.run.cuts[0] = Cut::new(&self.run, torn(), false);
+            }
             return;
         }
-        let middle = 0.5 * (one.0 + two.0);
-        match self.trace(middle) {
-            Ok(trace) => {
-                self.join(run, one, (middle, &trace), options, depth + 1);
-                self.push(run, middle, trace.clone());
-                self.join(run, (middle, &trace), two, options, depth + 1);
+        let (middle, trace) = self.attempt(0.5 * (a.parameter + b.parameter));
+        match &middle.1 {
+            Ok(knot)
+                if knot.misfit(&Strip::between(a, b), self.centre, self.radius)
+                    <= self.tolerance =>
+            {
+                self.push(&middle, trace);
+            }
+            Ok(knot) => {
+                self.join(a, knot);
+                self.push(&middle, trace);
+                self.join(knot, b);
             }
             Err(_) => {
-                let (end, last) = self.boundary((one.0, one.1.clone()), middle);
-                self.push(run, end, last);
-                self.finish(run);
-                let (start, first) = self.boundary((two.0, two.1.clone()), middle);
-                self.push(run, start, first);
+                self.fill(&(a.parameter, Ok(*a)), &middle, 0);
+                self.fill(&middle, &(b.parameter, Ok(*b)), 0);
             }
         }
     }
 
-    /// Cuts the run where neighbours that all exist are torn apart: one grazes an interface, the next meets it farther on.
-    fn tear(&mut self, run: &mut Run, one: (f64, &Trace), two: (f64, &Trace), options: FanOptions) {
-        let (mut low, mut high) = ((one.0, one.1.clone()), (two.0, two.1.clone()));
-        while high.0 - low.0 > BOUNDARY {
-            let middle = 0.5 * (low.0 + high.0);
-            let Ok(trace) = self.trace(middle) else { break };
-            if self.close(&low.1, &trace, options) {
-                low = (middle, trace);
-            } else {
-                high = (middle, trace);
+    /// The last ray that exists between one that does and a parameter where none does, and what stopped the next one.
+    fn boundary(&self, known: &Knot, mut bad: f64, failure: &Failure) -> (Trial, Trace, Error) {
+        let (mut good, mut trace) = self.attempt(known.parameter);
+        let mut reason = failure.error.clone();
+        while (bad - good.0).abs() > BOUNDARY {
+            let middle = 0.5 * (good.0 + bad);
+            match self.attempt(middle) {
+                (found, its) if found.1.is_ok() => (good, trace) = (found, its),
+                ((_, Err(failure)), _) => (bad, reason) = (middle, failure.error),
+                _ => break,
             }
         }
-        self.push(run, low.0, low.1);
-        self.finish(run);
-        self.push(run, high.0, high.1);
-    }
-
-    fn close(&self, one: &Trace, two: &Trace, options: FanOptions) -> bool {
-        let (Some(a), Some(b)) = (one.last(), two.last()) else {
-            return true;
-        };
-        let medium = &self.model.media()[self.last_layer()];
-        let (u, v) = (
-            medium.group_velocity(a.slowness),
-            medium.group_velocity(b.slowness),
-        );
-        u.angle_to(v).abs() <= options.turning
-            && a.point.distance(b.point) <= options.spacing * self.model.size()
-    }
-
-    /// The last ray that exists between one that does and a parameter where none does.
-    fn boundary(&self, (mut good, mut trace): (f64, Trace), mut bad: f64) -> (f64, Trace) {
-        while (bad - good).abs() > BOUNDARY {
-            let middle = 0.5 * (good + bad);
-            match self.trace(middle) {
-                Ok(found) => (good, trace) = (middle, found),
-                Err(_) => bad = middle,
-            }
-        }
-        (good, trace)
+        (good, trace, reason)
     }
 }
 

@@ -2,9 +2,10 @@
 
 use bezier_mass::bernstein;
 use glam::{DMat2, DVec2};
-use ph_curves::{G1Ends, LineElement, TCubic, TQuartic};
+use ph_curves::{TCubic, TQuartic};
 
-use crate::{Error, Medium, Ray};
+use crate::fit::MOST_TURNING;
+use crate::{Cut, Error, Medium, Ray};
 
 /// A front in a homogeneous medium, stored as what it would have been at time zero, in the plane in which the medium's
 /// indicatrix is the unit circle.
@@ -15,10 +16,11 @@ use crate::{Error, Medium, Ray};
 pub struct Front {
     medium: Medium,
     layer: usize,
-    to_unit: DMat2,
-    from_unit: DMat2,
-    pieces: Vec<FrontPiece>,
-    error: f64,
+    pub(crate) to_unit: DMat2,
+    pub(crate) from_unit: DMat2,
+    pub(crate) pieces: Vec<FrontPiece>,
+    pub(crate) error: f64,
+    pub(crate) cuts: [Option<Cut>; 2],
 }
 
 /// A piece of a front, at time zero in the unit plane.
@@ -55,79 +57,7 @@ pub struct Cusp {
     pub point: DVec2,
 }
 
-/// How closely a front is fitted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct FrontTolerance {
-    /// Largest error of the eikonal, a time: the distance of the fronts, over the speed.
-    pub time: f64,
-    /// Rays inside each arc to which its free parameter is fitted; the error is measured on as many others.
-    pub samples: usize,
-}
-
-impl FrontTolerance {
-    /// This tolerance, with three rays fitted in each arc.
-    #[must_use]
-    pub const fn time(time: f64) -> Self {
-        Self { time, samples: 3 }
-    }
-}
-
-/// An arc turns by less than this (radians); half a turn is the limit of the form.
-const MOST_TURNING: f64 = 2.5;
-/// A piece whose normal turns less than this (radians) is straight: the bulge is below rounding.
-const STRAIGHT: f64 = 1e-12;
-/// Halvings of the source's parameter before a piece is given up.
-const MOST_DEPTH: u32 = 40;
-
-/// A ray's data for the fit: unit normal, point and support at time zero in the unit plane, and the departure.
-#[derive(Clone, Copy, Debug)]
-struct Element {
-    normal: DVec2,
-    point: DVec2,
-    support: f64,
-    departure: f64,
-}
-
 impl Front {
-    /// Fits a front to rays given as a function of a parameter, between consecutive `breaks`: one arc between two rays, its
-    /// free parameter by linear least squares over inner rays, halved until other inner rays agree.
-    ///
-    /// # Errors
-    /// [`Error::BadSpeed`] in a medium without a unit plane (a rational indicatrix that is no ellipse);
-    /// [`Error::OutOfRange`] for a tolerance that is not positive; [`Error::NotConverged`]; the errors of the rays.
-    pub fn fit(
-        medium: &Medium,
-        layer: usize,
-        breaks: &[f64],
-        ray: impl Fn(f64) -> Result<Ray, Error>,
-        tolerance: FrontTolerance,
-    ) -> Result<Self, Error> {
-        if !(tolerance.time > 0.0 && tolerance.time.is_finite()) {
-            return Err(Error::OutOfRange {
-                what: "the tolerance of a front",
-                value: tolerance.time,
-            });
-        }
-        let mut front = Self::empty(medium, layer)?;
-        let element = |t: f64| front.element(&ray(t)?);
-        let mut pieces = Vec::new();
-        let mut error: f64 = 0.0;
-        for range in breaks.windows(2) {
-            fit_range(
-                [range[0], range[1]],
-                &element,
-                tolerance,
-                0,
-                &mut pieces,
-                &mut error,
-            )?;
-        }
-        front.pieces = pieces;
-        front.error = error;
-        Ok(front)
-    }
-
     /// The front of a point source at `position` that radiates between two normal angles (of the unit plane, radians).
     ///
     /// # Errors
@@ -157,70 +87,7 @@ impl Front {
         Ok(front)
     }
 
-    /// A front from samples of points and unit normals at time zero, one arc between each two `stride` apart whose free
-    /// parameter is fitted to those in between.
-    ///
-    /// # Errors
-    /// [`Error::NotMonotone`] where the normals stop turning or turn back; [`Error::BadSpeed`]; [`Error::NonFinite`].
-    pub fn from_samples(
-        medium: &Medium,
-        layer: usize,
-        samples: &[(DVec2, DVec2)],
-        stride: usize,
-    ) -> Result<Self, Error> {
-        let mut front = Self::empty(medium, layer)?;
-        if samples
-            .iter()
-            .any(|(point, normal)| !(point.is_finite() && normal.is_finite()))
-        {
-            return Err(Error::NonFinite {
-                what: "a sample of a front",
-            });
-        }
-        if samples.len() < 2 || stride == 0 {
-            return Err(Error::OutOfRange {
-                what: "the number of samples of a front",
-                value: samples.len() as f64,
-            });
-        }
-        let elements: Vec<Element> = samples
-            .iter()
-            .map(|&(point, normal)| {
-                let normal = (front.from_unit * normal).normalize();
-                let point = front.to_unit * point;
-                Element {
-                    normal,
-                    point,
-                    support: normal.dot(point),
-                    departure: 0.0,
-                }
-            })
-            .collect();
-        let turn = |i: usize| elements[i].normal.perp_dot(elements[i + 1].normal);
-        let sense = turn(0).signum();
-        if let Some(index) =
-            (0..elements.len() - 1).find(|&i| (sense * turn(i)).is_nan() || sense * turn(i) <= 0.0)
-        {
-            return Err(Error::NotMonotone { index: index + 1 });
-        }
-        for start in (0..elements.len() - 1).step_by(stride) {
-            let end = (start + stride).min(elements.len() - 1);
-            let (arc, inner) =
-                fit_arc(&elements[start], &elements[end], &elements[start + 1..end])?;
-            front.error = elements[start + 1..end]
-                .iter()
-                .map(|e| miss(&arc, e))
-                .fold(front.error, f64::max);
-            debug_assert!(inner <= end);
-            front.pieces.push(FrontPiece {
-                shape: PieceShape::Arc(arc),
-                departures: [0.0; 3],
-            });
-        }
-        Ok(front)
-    }
-
-    fn empty(medium: &Medium, layer: usize) -> Result<Self, Error> {
+    pub(crate) fn empty(medium: &Medium, layer: usize) -> Result<Self, Error> {
         let (Some(to_unit), Some(from_unit)) = (medium.unit_plane(), medium.from_unit_plane())
         else {
             return Err(Error::BadSpeed { speed: f64::NAN });
@@ -232,18 +99,7 @@ impl Front {
             from_unit,
             pieces: Vec::new(),
             error: 0.0,
-        })
-    }
-
-    fn element(&self, ray: &Ray) -> Result<Element, Error> {
-        let normal = (self.from_unit * ray.slowness).normalize();
-        let point = self.to_unit * ray.point;
-        let support = normal.dot(point) - ray.time;
-        Ok(Element {
-            normal,
-            point: point - ray.time * normal,
-            support,
-            departure: ray.time,
+            cuts: [None, None],
         })
     }
 
@@ -263,6 +119,12 @@ impl Front {
     #[must_use]
     pub fn pieces(&self) -> &[FrontPiece] {
         &self.pieces
+    }
+
+    /// Why the front starts and ends where it does; none where its source does.
+    #[must_use]
+    pub fn cuts(&self) -> [Option<&Cut>; 2] {
+        self.cuts.each_ref().map(Option::as_ref)
     }
 
     /// The largest error found when the front was fitted, a time.
@@ -456,112 +318,6 @@ impl FrontPiece {
             t,
         )
     }
-}
-
-/// Fits `[start, end]` with one piece, or its halves.
-fn fit_range(
-    [start, end]: [f64; 2],
-    element: &impl Fn(f64) -> Result<Element, Error>,
-    tolerance: FrontTolerance,
-    depth: u32,
-    pieces: &mut Vec<FrontPiece>,
-    error: &mut f64,
-) -> Result<(), Error> {
-    let count = 2 * tolerance.samples.max(1) + 1;
-    let inner: Vec<Element> = (1..=count)
-        .map(|i| element(start + (end - start) * i as f64 / (count + 1) as f64))
-        .collect::<Result<_, _>>()?;
-    let ends = [element(start)?, element(end)?];
-    let departures = [
-        ends[0].departure,
-        inner[count / 2].departure,
-        ends[1].departure,
-    ];
-    let (shape, found) = fit_shape(&ends, &inner);
-    if found <= tolerance.time {
-        pieces.push(FrontPiece { shape, departures });
-        *error = error.max(found);
-        return Ok(());
-    }
-    if depth >= MOST_DEPTH {
-        return Err(Error::NotConverged {
-            start,
-            end,
-            excess: found / tolerance.time,
-            depth,
-        });
-    }
-    let middle = 0.5 * (start + end);
-    fit_range(
-        [start, middle],
-        element,
-        tolerance,
-        depth + 1,
-        pieces,
-        error,
-    )?;
-    fit_range([middle, end], element, tolerance, depth + 1, pieces, error)
-}
-
-/// The best single piece and its largest error on the inner rays; infinite if there is none.
-fn fit_shape(ends: &[Element; 2], inner: &[Element]) -> (PieceShape, f64) {
-    let straight = PieceShape::Straight {
-        ends: ends.map(|end| end.point),
-        normal: ends[0].normal,
-    };
-    let normals = || {
-        [&ends[0]]
-            .into_iter()
-            .chain(inner)
-            .chain([&ends[1]])
-            .map(|element| element.normal)
-    };
-    let turns: Vec<f64> = normals()
-        .zip(normals().skip(1))
-        .map(|(n, m)| n.angle_to(m))
-        .collect();
-    let turning: f64 = turns.iter().sum();
-    if turns.iter().all(|turn| turn.abs() <= STRAIGHT) {
-        let support = ends[0].support;
-        let error = inner
-            .iter()
-            .map(|e| (e.support - support).abs())
-            .fold((ends[1].support - support).abs(), f64::max);
-        return (straight, error);
-    }
-    let monotone = turns.iter().all(|turn| turn * turning > 0.0);
-    if !monotone || turning.abs() > MOST_TURNING {
-        return (straight, f64::INFINITY);
-    }
-    // Every second inner ray is fitted, the others judge.
-    let fitted: Vec<Element> = inner.iter().skip(1).step_by(2).copied().collect();
-    match fit_arc(&ends[0], &ends[1], &fitted) {
-        Ok((arc, _)) => (
-            PieceShape::Arc(arc),
-            inner.iter().map(|e| miss(&arc, e)).fold(0.0, f64::max),
-        ),
-        Err(_) => (straight, f64::INFINITY),
-    }
-}
-
-/// The G1 arc between two elements whose free parameter fits the inner ones; also how many they were.
-fn fit_arc(start: &Element, end: &Element, inner: &[Element]) -> Result<(TQuartic, usize), Error> {
-    let ends = G1Ends::new(
-        LineElement::new(start.point, start.normal)?,
-        LineElement::new(end.point, end.normal)?,
-    )?;
-    let alpha = ends.fit_alpha(
-        inner
-            .iter()
-            .map(|element| (element.normal, element.support)),
-    );
-    Ok((ends.arc(alpha)?, inner.len()))
-}
-
-/// The distance between the tangents of an arc and of the front with one normal.
-fn miss(arc: &TQuartic, element: &Element) -> f64 {
-    arc.parameter_of_normal(element.normal)
-        .map_or(f64::INFINITY, |t| (arc.support(t) - element.support).abs())
 }
 
 /// The parameters at which the eikonal of an arc is stationary at a point: zeros of `h' q - h q'`, `h = <n, X> - g`.

@@ -76,24 +76,34 @@
 struct ReadmeDoctests;
 
 mod arrival;
+mod chain;
+mod conic;
+mod cut;
 mod error;
 mod fan;
+mod fit;
 mod front;
 mod interface;
+mod interpolate;
 mod medium;
 mod model;
 mod ray;
+mod receivers;
 mod source;
 mod space;
+mod strip;
 
-pub use arrival::{Arrival, first_arrival, section, travel_time_table};
+pub use arrival::Arrival;
+pub use cut::Cut;
 pub use error::Error;
 pub use fan::{Fan, FanOptions};
-pub use front::{Cusp, Front, FrontPiece, FrontTolerance, PieceShape};
+pub use fit::FrontTolerance;
+pub use front::{Cusp, Front, FrontPiece, PieceShape};
 pub use glam;
 pub use interface::{Impact, Interface};
 pub use medium::Medium;
 pub use model::{Code, Model, Step, Trace};
 pub use ray::{Mode, Ray};
+pub use receivers::{first_arrival, section, travel_time_table};
 pub use source::Source;
 pub use space::{DualSurface, Mirror, SampledSurface, SpacePoint};

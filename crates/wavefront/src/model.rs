@@ -11,6 +11,7 @@ use crate::{Error, Impact, Interface, Medium, Mode, Ray};
 pub struct Model {
     low: DVec2,
     high: DVec2,
+    size: f64,
     media: Vec<Medium>,
     interfaces: Vec<Interface>,
 }
@@ -48,6 +49,24 @@ impl Trace {
     pub fn last(&self) -> Option<&Ray> {
         self.legs.last()
     }
+}
+
+/// Where and why a ray ended.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Failure {
+    /// The step of the code that could not be done.
+    pub(crate) step: usize,
+    pub(crate) error: Error,
+}
+
+/// A ray on its last leg.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Landing {
+    pub(crate) ray: Ray,
+    /// The interface that it left last, and the parameter there.
+    pub(crate) left: Option<(usize, f64)>,
+    /// How often it has touched a caustic before.
+    pub(crate) caustics: u32,
 }
 
 /// A ray that starts on an interface must not meet it again before this share of the model's size.
@@ -89,6 +108,7 @@ impl Model {
         let model = Self {
             low,
             high,
+            size: (high - low).length(),
             media,
             interfaces,
         };
@@ -123,9 +143,10 @@ impl Model {
     }
 
     /// The diameter of the box, the length that tolerances refer to.
+    #[inline]
     #[must_use]
     pub fn size(&self) -> f64 {
-        (self.high - self.low).length()
+        self.size
     }
 
     /// The media, from above.
@@ -216,113 +237,138 @@ impl Model {
     /// Sends a ray through a code.
     ///
     /// # Errors
-    /// [`Error::Miss`] if it meets another interface first, or none; [`Error::TotalReflection`]; [`Error::BadCode`].
+    /// [`Error::Miss`] if it leaves the model's box without meeting the interface; [`Error::Blocked`] if it meets another one
+    /// first; [`Error::TotalReflection`]; [`Error::BadCode`].
     pub fn trace(&self, start: Ray, layer: usize, code: &Code) -> Result<Trace, Error> {
         let layers = self.layers_along(layer, code)?;
-        let mut trace = Trace::default();
+        self.trace_along(start, &layers, code)
+            .map_err(|failure| failure.error)
+    }
+
+    /// Sends a ray through a code whose media are known.
+    pub(crate) fn trace_along(
+        &self,
+        start: Ray,
+        layers: &[usize],
+        code: &Code,
+    ) -> Result<Trace, Failure> {
+        let mut trace = Trace {
+            legs: Vec::with_capacity(code.steps.len() + 1),
+            impacts: Vec::with_capacity(code.steps.len()),
+        };
         let mut ray = start;
         trace.legs.push(ray);
         let mut left = None;
-        for (&Step { interface, mode }, window) in code.steps.iter().zip(layers.windows(2)) {
+        for (index, (step, window)) in code.steps.iter().zip(layers.windows(2)).enumerate() {
+            let failure = |error| Failure { step: index, error };
             let medium = &self.media[window[0]];
             let impact = self
-                .impact_on(interface, window[0], left, &ray)
-                .ok_or(Error::Miss { from: ray.point })?;
-            ray = ray.arrive(&impact, medium).scatter(
-                &impact,
-                mode,
-                medium,
-                &self.media[window[1]],
-            )?;
+                .impact_on(step.interface, window[0], left, &ray)
+                .map_err(failure)?;
+            ray = ray
+                .arrive(&impact, medium)
+                .scatter(&impact, step.mode, medium, &self.media[window[1]])
+                .map_err(failure)?;
             trace.impacts.push(impact);
             trace.legs.push(ray);
-            left = Some(interface);
+            left = Some((step.interface, impact.parameter));
         }
         Ok(trace)
     }
 
-    /// The impact on `interface`, if no other boundary of the layer is met before it.
+    /// The impact on `interface`, if it is in the box and no other boundary of the layer is met before it.
     fn impact_on(
         &self,
         interface: usize,
         layer: usize,
-        left: Option<usize>,
+        left: Option<(usize, f64)>,
         ray: &Ray,
-    ) -> Option<Impact> {
+    ) -> Result<Impact, Error> {
+        let miss = Error::Miss { from: ray.point };
         let velocity = self.media[layer].group_velocity(ray.slowness);
         let margin = SELF_IMPACT * self.size() / velocity.length();
-        let after = |other: usize| if left == Some(other) { margin } else { 0.0 };
-        let impact =
-            self.interfaces[interface].first_impact(ray.point, velocity, after(interface))?;
-        let other = self.other_boundary(interface, layer);
-        let blocked = other.and_then(|other| {
-            self.interfaces[other].first_impact(ray.point, velocity, after(other))
-        });
-        blocked
-            .is_none_or(|blocking| blocking.time > impact.time)
-            .then_some(impact)
+        let impact = self.interfaces[interface]
+            .first_impact(ray.point, velocity, margin)
+            .filter(|impact| self.contains(impact.point))
+            .ok_or(miss)?;
+        let other = self
+            .boundaries(layer)
+            .find(|&boundary| boundary != interface);
+        if let Some(other) = other
+            && self.blocks(other, ray.point, impact.point, left)
+        {
+            return Err(Error::Blocked {
+                from: ray.point,
+                interface: other,
+            });
+        }
+        Ok(impact)
     }
 
-    fn other_boundary(&self, interface: usize, layer: usize) -> Option<usize> {
-        let other = if interface == layer {
-            layer.checked_sub(1)
-        } else {
-            Some(layer)
-        };
-        other.filter(|&other| other < self.interfaces.len())
+    /// Whether a point lies in the box, to the margin within which a ray does not meet the interface that it left.
+    fn contains(&self, point: DVec2) -> bool {
+        let margin = SELF_IMPACT * self.size();
+        point.cmpge(self.low - margin).all() && point.cmple(self.high + margin).all()
     }
 
-    /// A ray near a traced one, by Newton's method on each interface from the neighbour's impacts: quick, and none where
-    /// the neighbour is no guide (another piece, a grazing ray, total reflection).
+    /// The interfaces above and below a layer, as far as there are any.
+    fn boundaries(&self, layer: usize) -> impl Iterator<Item = usize> + use<> {
+        let below = (layer < self.interfaces.len()).then_some(layer);
+        [layer.checked_sub(1), below].into_iter().flatten()
+    }
+
+    #[inline]
+    fn blocks(&self, interface: usize, from: DVec2, to: DVec2, left: Option<(usize, f64)>) -> bool {
+        let parameter = left.and_then(|(at, parameter)| (at == interface).then_some(parameter));
+        let margin = SELF_IMPACT * self.size() / from.distance(to);
+        self.interfaces[interface].blocks(from, to, parameter, margin)
+    }
+
+    /// A ray near traced ones, by Newton's method on each interface from the expected parameters of the impacts: quick, and
+    /// none where the neighbours are no guide (a grazing ray, total reflection).
+    #[inline]
     pub(crate) fn trace_near(
         &self,
         start: Ray,
         layers: &[usize],
         code: &Code,
-        impacts: &[Impact],
-    ) -> Option<Ray> {
-        let mut ray = start;
-        for ((step, window), known) in code.steps.iter().zip(layers.windows(2)).zip(impacts) {
+        expected: impl Fn(usize) -> f64,
+    ) -> Option<Landing> {
+        let mut landing = Landing {
+            ray: start,
+            left: None,
+            caustics: 0,
+        };
+        for (index, (step, window)) in code.steps.iter().zip(layers.windows(2)).enumerate() {
             let medium = &self.media[window[0]];
+            let ray = &landing.ray;
             let velocity = medium.group_velocity(ray.slowness);
             let after = SELF_IMPACT * self.size() / velocity.length();
             let impact = self.interfaces[step.interface].impact_near(
                 ray.point,
                 velocity,
                 after,
-                known.parameter,
+                expected(index),
             )?;
-            ray = ray
-                .arrive(&impact, medium)
+            let there = ray.arrive(&impact, medium);
+            landing.caustics += u32::from(ray.is_beyond_caustic_at(&there, velocity));
+            landing.ray = there
                 .scatter(&impact, step.mode, medium, &self.media[window[1]])
                 .ok()?;
+            landing.left = Some((step.interface, impact.parameter));
         }
-        Some(ray)
+        Some(landing)
     }
 
     /// Whether a wave on its last leg reaches `point` without meeting a boundary of its layer before.
-    pub(crate) fn reaches(
-        &self,
-        ray: &Ray,
-        layer: usize,
-        left: Option<usize>,
-        point: DVec2,
-    ) -> bool {
-        let velocity = self.media[layer].group_velocity(ray.slowness);
-        let travel = velocity.dot(point - ray.point) / velocity.length_squared();
-        if travel.is_nan() || travel <= 0.0 {
-            return false;
-        }
-        let margin = SELF_IMPACT * self.size() / velocity.length();
-        [layer.checked_sub(1), Some(layer)]
-            .into_iter()
-            .flatten()
-            .filter(|&i| i < self.interfaces.len())
-            .all(|i| {
-                let after = if left == Some(i) { margin } else { 0.0 };
-                let impact = self.interfaces[i].first_impact(ray.point, velocity, after);
-                impact.is_none_or(|impact| impact.time >= travel - margin)
-            })
+    #[inline]
+    pub(crate) fn reaches(&self, landing: &Landing, layer: usize, point: DVec2) -> bool {
+        let from = landing.ray.point;
+        let velocity = self.media[layer].group_velocity(landing.ray.slowness);
+        velocity.dot(point - from) > 0.0
+            && !self
+                .boundaries(layer)
+                .any(|boundary| self.blocks(boundary, from, point, landing.left))
     }
 }
 

@@ -41,16 +41,23 @@ impl Ray {
     /// of the normal.
     #[must_use]
     pub fn from_point(point: DVec2, slowness: DVec2, medium: &Medium) -> Self {
-        let normal = slowness.normalize();
-        let velocity = medium.group_velocity(slowness);
+        Self::radiating(point, slowness.normalize(), medium)
+    }
+
+    /// As [`Ray::from_point`], by the unit normal.
+    #[inline]
+    #[must_use]
+    pub fn radiating(point: DVec2, normal: DVec2, medium: &Medium) -> Self {
+        let slowness = medium.slowness(normal);
         // s = N / P with P = <N, V> and P' = <T, V>.
-        let (speed, slope) = (normal.dot(velocity), normal.perp().dot(velocity));
+        let slope = normal.perp().dot(medium.group_velocity(slowness));
+        let inverse_speed = slowness.dot(normal);
         Self {
             point,
             slowness,
             time: 0.0,
             point_change: DVec2::ZERO,
-            slowness_change: normal.perp() / speed - normal * (slope / (speed * speed)),
+            slowness_change: inverse_speed * (normal.perp() - slope * slowness),
             time_change: 0.0,
         }
     }
@@ -62,12 +69,14 @@ impl Ray {
     }
 
     /// The arrival time at a point of the ray (and to second order near it).
+    #[inline]
     #[must_use]
     pub fn time_at(&self, point: DVec2) -> f64 {
         self.time + self.slowness.dot(point - self.point)
     }
 
     /// The ray after the given travel time in its medium.
+    #[inline]
     #[must_use]
     pub fn after(&self, travel: f64, medium: &Medium) -> Self {
         let velocity = medium.group_velocity(self.slowness);
@@ -109,7 +118,38 @@ impl Ray {
             - (self.point_change.perp_dot(velocity) / velocity_change.perp_dot(velocity)) * velocity
     }
 
+    /// The signed distance of a point from the ray, positive to its left, and its derivative along the family.
+    #[inline]
+    #[must_use]
+    pub fn side(&self, point: DVec2, medium: &Medium) -> (f64, f64) {
+        let velocity = medium.group_velocity(self.slowness);
+        let change = medium.group_velocity_change(self.slowness, self.slowness_change);
+        let (way, speed) = (point - self.point, velocity.length());
+        let distance = velocity.perp_dot(way) / speed;
+        let turning = change.perp_dot(way) - velocity.perp_dot(self.point_change);
+        let stretching = distance * velocity.dot(change) / speed;
+        (distance, (turning - stretching) / speed)
+    }
+
+    /// Whether the ray tube has closed between this place of the ray and a later one of the same leg.
+    #[inline]
+    pub(crate) fn is_beyond_caustic_at(&self, later: &Self, velocity: DVec2) -> bool {
+        self.point_change.perp_dot(velocity) * later.point_change.perp_dot(velocity) < 0.0
+    }
+
+    /// The neighbouring ray at a small step of the parameter, to first order.
+    #[inline]
+    pub(crate) fn moved(&self, step: f64) -> Self {
+        Self {
+            point: self.point + step * self.point_change,
+            slowness: self.slowness + step * self.slowness_change,
+            time: self.time + step * self.time_change,
+            ..*self
+        }
+    }
+
     /// The ray at an impact, its derivatives taken along the interface.
+    #[inline]
     #[must_use]
     pub fn arrive(&self, impact: &Impact, medium: &Medium) -> Self {
         let velocity = medium.group_velocity(self.slowness);
@@ -133,6 +173,7 @@ impl Ray {
     ///
     /// # Errors
     /// [`Error::TotalReflection`] if nothing is transmitted.
+    #[inline]
     pub fn scatter(
         &self,
         impact: &Impact,

@@ -85,12 +85,13 @@ impl Source {
     ///
     /// # Errors
     /// [`Error::ZeroDirection`] where a reflector has no tangent.
+    #[inline]
     pub fn ray(&self, t: f64, medium: &Medium) -> Result<Ray, Error> {
         match self {
             Self::Point { position, angles } => {
                 let range = angles[1] - angles[0];
-                let slowness = medium.slowness(DVec2::from_angle(angles[0] + range * t));
-                let ray = Ray::from_point(*position, slowness, medium);
+                let normal = DVec2::from_angle(angles[0] + range * t);
+                let ray = Ray::radiating(*position, normal, medium);
                 Ok(Ray {
                     slowness_change: range * ray.slowness_change,
                     ..ray
@@ -120,7 +121,7 @@ impl Source {
                 };
                 let side = if *left { 1.0 } else { -1.0 };
                 let normal = (side * slope.perp()).try_normalize().ok_or(none)?;
-                let ray = Ray::from_point(point, medium.slowness(normal), medium);
+                let ray = Ray::radiating(point, normal, medium);
                 let turning = slope.perp_dot(bend) / slope.length_squared();
                 Ok(Ray {
                     point_change: slope,

@@ -53,7 +53,7 @@ mod render;
 
 mod variation;
 
-// mod wavefront;
+mod wavefront;
 
 /// Every bench, in alphabetical order.
 #[must_use]
@@ -67,7 +67,7 @@ pub fn all() -> Vec<Entry> {
         entry::<reconstruct::Reconstruct>(),
         entry::<render::Render>(),
         entry::<variation::Variation>(),
-        // entry::<wavefront::Wavefront>(),
+        entry::<wavefront::Wavefront>(),
     ]
 }
 

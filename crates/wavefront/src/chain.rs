@@ -1,0 +1,426 @@
+//! Chains of Bézier curves under a tree of boxes: where rays meet them.
+
+use bezier_mass::BezierCurve;
+use glam::DVec2;
+
+use crate::{Error, Impact};
+
+/// Bézier curves one after the other. The parameter is the number of the piece plus that on the piece.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "Vec<BezierCurve<DVec2>>", into = "Vec<BezierCurve<DVec2>>")
+)]
+pub(crate) struct Chain {
+    pieces: Vec<Piece>,
+    /// A heap: node k holds its children 2k and 2k + 1, the leaves are the pieces and, behind them, empty boxes.
+    boxes: Vec<Bounds>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Piece {
+    curve: BezierCurve<DVec2>,
+    /// The coefficients of the powers of the parameter of a polynomial piece, for quick values; none for a rational one.
+    powers: Vec<DVec2>,
+}
+
+/// A box around pieces; infinite if a weight is not positive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Bounds {
+    low: DVec2,
+    high: DVec2,
+}
+
+/// A parameter this far outside `[0, 1]` still belongs to a chain's end piece.
+const END_SLACK: f64 = 1e-12;
+/// Newton's method from a neighbouring ray's place; it doubles its digits, and is given up for the certified search.
+const GUIDED_STEPS: usize = 10;
+/// Behind a step this small (in the piece's parameter) Newton's method has converged: the next one is below rounding.
+const CONVERGED: f64 = 1e-8;
+/// A piece of a higher degree is not put in powers, where digits would be lost.
+const MOST_POWERS: usize = 8;
+/// Boxes are widened by this share of their size, against rounding.
+const MARGIN: f64 = 1e-12;
+
+impl Chain {
+    pub(crate) fn new(curves: impl IntoIterator<Item = BezierCurve<DVec2>>) -> Result<Self, Error> {
+        let pieces: Vec<Piece> = curves.into_iter().map(Piece::new).collect();
+        let bad = |reason| Error::BadInterface {
+            interface: 0,
+            reason,
+        };
+        if pieces.is_empty() {
+            return Err(bad("a curve without pieces"));
+        }
+        let leaves = pieces.len().next_power_of_two();
+        let mut boxes = vec![Bounds::EMPTY; 2 * leaves];
+        for (piece, leaf) in pieces.iter().zip(&mut boxes[leaves..]) {
+            *leaf = piece.bounds();
+            if leaf.low == leaf.high {
+                return Err(bad("a piece of a curve is a single point"));
+            }
+        }
+        for node in (1..leaves).rev() {
+            boxes[node] = boxes[2 * node].union(boxes[2 * node + 1]);
+        }
+        Ok(Self { pieces, boxes })
+    }
+
+    pub(crate) fn piece_count(&self) -> usize {
+        self.pieces.len()
+    }
+
+    pub(crate) fn point(&self, parameter: f64) -> Option<DVec2> {
+        let (index, t) = self.locate(parameter);
+        self.pieces[index].curve.jet(t).position()
+    }
+
+    #[inline]
+    fn locate(&self, parameter: f64) -> (usize, f64) {
+        let index = (parameter.max(0.0) as usize).min(self.pieces.len() - 1);
+        (index, parameter - index as f64)
+    }
+
+    /// Calls `visit` with the pieces whose boxes pass the test, in order.
+    #[inline]
+    fn visit_pieces(&self, keep: impl FnMut(&Bounds) -> bool, visit: impl FnMut(usize)) {
+        self.visit_pieces_of(1, keep, visit);
+    }
+
+    /// As `visit_pieces`, in the part of the tree under a node.
+    #[inline]
+    fn visit_pieces_of(
+        &self,
+        root: usize,
+        mut keep: impl FnMut(&Bounds) -> bool,
+        mut visit: impl FnMut(usize),
+    ) {
+        let leaves = self.boxes.len() / 2;
+        let mut waiting = [0_usize; 64];
+        let mut count = 1;
+        waiting[0] = root;
+        while count > 0 {
+            count -= 1;
+            let node = waiting[count];
+            if !keep(&self.boxes[node]) {
+                continue;
+            }
+            if node >= leaves {
+                if node - leaves < self.pieces.len() {
+                    visit(node - leaves);
+                }
+            } else {
+                (waiting[count], waiting[count + 1]) = (2 * node + 1, 2 * node);
+                count += 2;
+            }
+        }
+    }
+
+    /// Calls `found` for every impact later than `after`, in no order.
+    pub(crate) fn visit_impacts(
+        &self,
+        origin: DVec2,
+        velocity: DVec2,
+        after: f64,
+        mut found: impl FnMut(Impact),
+    ) {
+        self.visit_pieces(
+            |bounds| bounds.may_meet(origin, velocity, f64::INFINITY),
+            |index| self.visit_piece(index, origin, velocity, after, &mut found),
+        );
+    }
+
+    /// The first impact later than `after`; boxes behind the first one known are not searched.
+    pub(crate) fn first_impact(
+        &self,
+        origin: DVec2,
+        velocity: DVec2,
+        after: f64,
+    ) -> Option<Impact> {
+        let first = std::cell::Cell::new(None::<Impact>);
+        let latest = || first.get().map_or(f64::INFINITY, |impact| impact.time);
+        self.visit_pieces(
+            |bounds| bounds.may_meet(origin, velocity, latest()),
+            |index| {
+                self.visit_piece(index, origin, velocity, after, &mut |impact: Impact| {
+                    if impact.time < latest() {
+                        first.set(Some(impact));
+                    }
+                });
+            },
+        );
+        first.get()
+    }
+
+    fn visit_piece(
+        &self,
+        index: usize,
+        origin: DVec2,
+        velocity: DVec2,
+        after: f64,
+        found: &mut impl FnMut(Impact),
+    ) {
+        let piece = &self.pieces[index];
+        let mut room = [0.0; MOST_POWERS];
+        let mut more = Vec::new();
+        let sides = piece.sides(origin, velocity, &mut room, &mut more);
+        if sign_changes(sides) == Some(0) {
+            return;
+        }
+        let Ok(roots) = variation::roots(sides) else {
+            return;
+        };
+        let last = index + 1 == self.pieces.len();
+        for root in roots.iter() {
+            // A joint belongs to the piece that starts there: both compute the same side of the same point.
+            if root.value() >= 1.0 && !last && sides.last() == Some(&0.0) {
+                continue;
+            }
+            let Some(impact) = piece.impact(root.value(), index, origin, velocity) else {
+                continue;
+            };
+            if impact.time > after {
+                found(impact);
+            }
+        }
+    }
+
+    /// The impact near a known place, by Newton's method from there.
+    #[inline]
+    pub(crate) fn impact_near(
+        &self,
+        origin: DVec2,
+        velocity: DVec2,
+        after: f64,
+        guess: f64,
+    ) -> Option<Impact> {
+        let mut parameter = guess;
+        for _ in 0..GUIDED_STEPS {
+            let (index, t) = self.locate(parameter);
+            let [position, slope, bend] = self.pieces[index].jet(t)?;
+            let step = -velocity.perp_dot(position - origin) / velocity.perp_dot(slope);
+            parameter += step;
+            if !(parameter > -END_SLACK && parameter < self.pieces.len() as f64 + END_SLACK) {
+                return None;
+            }
+            if step.abs() <= CONVERGED {
+                let position = position + step * (slope + 0.5 * step * bend);
+                let jet = [position, slope + step * bend, bend];
+                let impact = impact(jet, parameter, origin, velocity)?;
+                return (impact.time > after).then_some(impact);
+            }
+        }
+        None
+    }
+
+    /// Whether the way between two points meets the chain, except at its start; `left` is the parameter of the start if that
+    /// lies on the chain. Ends closer to the chain than the share `margin` of the way do not count.
+    pub(crate) fn blocks(&self, from: DVec2, to: DVec2, left: Option<f64>, margin: f64) -> bool {
+        let way = to - from;
+        let left = left.map(|parameter| self.locate(parameter).0);
+        let keep = |bounds: &Bounds| bounds.overlaps(from, to) && bounds.may_meet(from, way, 1.0);
+        let mut blocked = false;
+        let mut visit = |index: usize| {
+            let mut room = [0.0; MOST_POWERS];
+            let mut more = Vec::new();
+            let sides = self.pieces[index].sides(from, way, &mut room, &mut more);
+            match sign_changes(sides) {
+                Some(0) => return,
+                // The one crossing of the piece that the way starts from.
+                Some(1) if left == Some(index) => return,
+                _ => {}
+            }
+            self.visit_piece(index, from, way, margin, &mut |impact: Impact| {
+                blocked |= impact.time < 1.0 - margin;
+            });
+        };
+        let Some(left) = left else {
+            self.visit_pieces(keep, visit);
+            return blocked;
+        };
+        // From the piece that is left up to the root, and down its siblings: their boxes are mostly out of the way.
+        visit(left);
+        let mut node = left + self.boxes.len() / 2;
+        while node > 1 {
+            self.visit_pieces_of(node ^ 1, keep, &mut visit);
+            node /= 2;
+        }
+        blocked
+    }
+}
+
+impl Piece {
+    fn new(curve: BezierCurve<DVec2>) -> Self {
+        let control = curve.control();
+        let polynomial = control.len() <= MOST_POWERS && control.iter().all(|h| h.weight == 1.0);
+        let mut powers = Vec::new();
+        if polynomial {
+            // The k-th power has the coefficient C(n, k) times the k-th difference at the start.
+            let mut differences: Vec<DVec2> = control.iter().map(|h| h.weighted).collect();
+            for k in 0..control.len() {
+                powers
+                    .push(bezier_mass::bernstein::binomial(control.len() - 1, k) * differences[0]);
+                differences = differences
+                    .windows(2)
+                    .map(|pair| pair[1] - pair[0])
+                    .collect();
+            }
+        }
+        Self { curve, powers }
+    }
+
+    fn bounds(&self) -> Bounds {
+        let mut bounds = Bounds::EMPTY;
+        for mass in self.curve.control() {
+            match mass.position() {
+                Some(point) if mass.weight > 0.0 => {
+                    bounds = bounds.union(Bounds {
+                        low: point,
+                        high: point,
+                    })
+                }
+                _ => return Bounds::EVERYTHING,
+            }
+        }
+        let margin = MARGIN * (bounds.high - bounds.low).max_element();
+        Bounds {
+            low: bounds.low - margin,
+            high: bounds.high + margin,
+        }
+    }
+
+    /// Position, first and second derivative.
+    #[inline]
+    fn jet(&self, t: f64) -> Option<[DVec2; 3]> {
+        if self.powers.is_empty() {
+            let jet = self.curve.jet(t);
+            return Some([jet.position()?, jet.velocity()?, jet.acceleration()?]);
+        }
+        let (mut value, mut slope, mut half_bend) = (DVec2::ZERO, DVec2::ZERO, DVec2::ZERO);
+        for &power in self.powers.iter().rev() {
+            half_bend = half_bend * t + slope;
+            slope = slope * t + value;
+            value = value * t + power;
+        }
+        Some([value, slope, 2.0 * half_bend])
+    }
+
+    /// The sides of a line on which the control points lie, `<J V, h - w X>`: a polynomial in Bernstein form whose roots are
+    /// the crossings.
+    #[inline]
+    fn sides<'a>(
+        &self,
+        origin: DVec2,
+        velocity: DVec2,
+        room: &'a mut [f64; MOST_POWERS],
+        more: &'a mut Vec<f64>,
+    ) -> &'a [f64] {
+        let control = self.curve.control();
+        let values = control
+            .iter()
+            .map(|mass| velocity.perp_dot(mass.weighted - mass.weight * origin));
+        if control.len() <= MOST_POWERS {
+            for (slot, value) in room.iter_mut().zip(values) {
+                *slot = value;
+            }
+            &room[..control.len()]
+        } else {
+            more.extend(values);
+            more
+        }
+    }
+
+    fn impact(&self, t: f64, index: usize, origin: DVec2, velocity: DVec2) -> Option<Impact> {
+        impact(self.jet(t)?, index as f64 + t, origin, velocity)
+    }
+}
+
+fn impact(
+    [point, slope, bend]: [DVec2; 3],
+    parameter: f64,
+    origin: DVec2,
+    velocity: DVec2,
+) -> Option<Impact> {
+    let speed = slope.length();
+    if speed == 0.0 {
+        return None;
+    }
+    Some(Impact {
+        time: velocity.dot(point - origin) / velocity.length_squared(),
+        point,
+        tangent: slope / speed,
+        curvature: slope.perp_dot(bend) / (speed * speed * speed),
+        parameter,
+    })
+}
+
+/// The number of sign changes; none if a zero makes it unclear.
+#[inline]
+fn sign_changes(values: &[f64]) -> Option<usize> {
+    let mut changes = 0;
+    for pair in values.windows(2) {
+        if pair[0] == 0.0 || pair[1] == 0.0 {
+            return None;
+        }
+        changes += usize::from((pair[0] > 0.0) != (pair[1] > 0.0));
+    }
+    Some(changes)
+}
+
+impl Bounds {
+    const EMPTY: Self = Self {
+        low: DVec2::INFINITY,
+        high: DVec2::NEG_INFINITY,
+    };
+    const EVERYTHING: Self = Self {
+        low: DVec2::NEG_INFINITY,
+        high: DVec2::INFINITY,
+    };
+
+    fn union(self, other: Self) -> Self {
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+        }
+    }
+
+    /// Whether a ray may meet the box before `latest`. Written so that infinite boxes, whose centre is no number, pass.
+    #[inline]
+    fn may_meet(&self, origin: DVec2, velocity: DVec2, latest: f64) -> bool {
+        if self.low.x > self.high.x {
+            return false;
+        }
+        let centre = 0.5 * (self.low + self.high) - origin;
+        let half = 0.5 * (self.high - self.low);
+        let aside = velocity.perp_dot(centre).abs();
+        if aside > velocity.x.abs() * half.y + velocity.y.abs() * half.x {
+            return false;
+        }
+        let (along, reach) = (velocity.dot(centre), velocity.abs().dot(half));
+        if along + reach < 0.0 {
+            return false;
+        }
+        let too_late = along - reach > latest * velocity.length_squared();
+        !too_late
+    }
+
+    #[inline]
+    fn overlaps(&self, from: DVec2, to: DVec2) -> bool {
+        self.low.cmple(from.max(to)).all() && self.high.cmpge(from.min(to)).all()
+    }
+}
+
+impl TryFrom<Vec<BezierCurve<DVec2>>> for Chain {
+    type Error = Error;
+
+    fn try_from(curves: Vec<BezierCurve<DVec2>>) -> Result<Self, Error> {
+        Self::new(curves)
+    }
+}
+
+impl From<Chain> for Vec<BezierCurve<DVec2>> {
+    fn from(chain: Chain) -> Self {
+        chain.pieces.into_iter().map(|piece| piece.curve).collect()
+    }
+}
