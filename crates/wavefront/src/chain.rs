@@ -96,6 +96,9 @@ impl Chain {
         mut keep: impl FnMut(&Bounds) -> bool,
         mut visit: impl FnMut(usize),
     ) {
+        if !keep(&self.boxes[root]) {
+            return;
+        }
         let leaves = self.boxes.len() / 2;
         let mut waiting = [0_usize; 64];
         let mut count = 1;

@@ -3,6 +3,7 @@
 use glam::DVec2;
 use ph_curves::{G1Ends, LineElement, TQuartic};
 
+use crate::departure::Departures;
 use crate::front::{Front, FrontPiece, PieceShape};
 use crate::{Cut, Error, Medium, Ray};
 
@@ -174,7 +175,7 @@ impl Front {
                 .fold(front.error, f64::max);
             front.pieces.push(FrontPiece {
                 shape: PieceShape::Arc(arc),
-                departures: [0.0; 3],
+                departures: Departures::at(0.0),
             });
         }
         Ok(front)
@@ -224,8 +225,7 @@ impl<R: Fn(f64) -> Result<Ray, Error>> Fitter<'_, R> {
     ) -> Result<(), Error> {
         let (shape, error) = fit_shape(elements);
         if error <= self.tolerance.time {
-            let departures =
-                [0, elements.len() / 2, elements.len() - 1].map(|index| elements[index].departure);
+            let departures = departures(&shape, elements);
             self.current.pieces.push(FrontPiece { shape, departures });
             self.current.error = self.current.error.max(error);
             return Ok(());
@@ -328,6 +328,28 @@ impl<R: Fn(f64) -> Result<Ray, Error>> Fitter<'_, R> {
             self.fronts.push(front);
         }
     }
+}
+
+/// The departures along a piece, through five of the elements.
+fn departures(shape: &PieceShape, elements: &[Element]) -> Departures {
+    let last = elements.len() - 1;
+    let parameter = |element: &Element| match shape {
+        PieceShape::Arc(arc) => arc.parameter_of_normal(element.normal).unwrap_or(f64::NAN),
+        PieceShape::Straight { ends, .. } => {
+            let along = ends[1] - ends[0];
+            along.dot(element.point - ends[0]) / along.length_squared()
+        }
+    };
+    let ray = |i: usize| {
+        let element = &elements[i * last / 4];
+        let t = match i {
+            0 => 0.0,
+            4 => 1.0,
+            _ => parameter(element),
+        };
+        (t, element.departure)
+    };
+    Departures::through([ray(0), ray(1), ray(2), ray(3), ray(4)])
 }
 
 /// The best single piece through elements and its largest error on the inner ones; infinite if there is none.

@@ -4,6 +4,7 @@ use bezier_mass::bernstein;
 use glam::{DMat2, DVec2};
 use ph_curves::{TCubic, TQuartic};
 
+use crate::departure::Departures;
 use crate::fit::MOST_TURNING;
 use crate::{Cut, Error, Medium, Ray};
 
@@ -28,8 +29,7 @@ pub struct Front {
 pub struct FrontPiece {
     /// Its shape.
     pub shape: PieceShape,
-    /// The times at which the rays at its start, middle and end set out: nothing of it exists before.
-    pub departures: [f64; 3],
+    pub(crate) departures: Departures,
 }
 
 /// The shape of a piece of a front.
@@ -81,7 +81,7 @@ impl Front {
             let arc = TQuartic::point_fan(front.to_unit * position, start, end)?;
             front.pieces.push(FrontPiece {
                 shape: PieceShape::Arc(arc),
-                departures: [0.0; 3],
+                departures: Departures::at(0.0),
             });
         }
         Ok(front)
@@ -141,26 +141,6 @@ impl Front {
             PieceShape::Straight { ends, normal } => ends[0].lerp(ends[1], t) + time * *normal,
         };
         self.from_unit * unit
-    }
-
-    /// The front at a time as polylines, one for each stretch that exists then: pieces whose rays have set out.
-    #[must_use]
-    pub fn snapshot(&self, time: f64, steps: usize) -> Vec<Vec<DVec2>> {
-        let mut stretches = vec![Vec::new()];
-        for (index, piece) in self.pieces.iter().enumerate() {
-            for i in 0..=steps.max(1) {
-                let t = i as f64 / steps.max(1) as f64;
-                if piece.departure(t) <= time {
-                    if let Some(stretch) = stretches.last_mut() {
-                        stretch.push(self.point(index, t, time));
-                    }
-                } else if stretches.last().is_some_and(|stretch| !stretch.is_empty()) {
-                    stretches.push(Vec::new());
-                }
-            }
-        }
-        stretches.retain(|stretch| stretch.len() > 1);
-        stretches
     }
 
     /// The front at a time as class-3 arcs in the unit plane: the Bézier lines translated by the time.
@@ -256,7 +236,10 @@ impl Front {
             .windows(2)
             .fold((0.0, 0.0), |(angle, gap): (f64, f64), pair| {
                 let ((p, n), (q, m)) = (end(&pair[0], 1.0), end(&pair[1], 0.0));
-                (angle.max(n.angle_to(m).abs()), gap.max(p.distance(q)))
+                (
+                    angle.max(n.perp_dot(m).atan2(n.dot(m)).abs()),
+                    gap.max(p.distance(q)),
+                )
             })
     }
 
@@ -273,7 +256,7 @@ impl Front {
             value: 0.0,
         })?;
         let (t, rate) = (scaled - index as f64, count as f64);
-        let time = piece.departure(t);
+        let (time, departure_rate) = piece.departures.jet(t);
         let (point, normal, point_rate, turning) = match piece.shape {
             PieceShape::Arc(arc) => {
                 let contact = arc.contact(t);
@@ -291,7 +274,6 @@ impl Front {
             }
         };
         let normal_rate = turning * normal.perp();
-        let departure_rate = piece.departure_rate(t);
         Ok(Ray {
             point: self.from_unit * (point + time * normal),
             slowness: self.to_unit * normal,
@@ -305,18 +287,11 @@ impl Front {
 }
 
 impl FrontPiece {
-    /// The departure at `t`: the parabola through the three known ones.
-    fn departure(&self, t: f64) -> f64 {
-        let [start, middle, end] = self.departures;
-        bernstein::evaluate(&[start, 2.0 * middle - 0.5 * (start + end), end], t)
-    }
-
-    fn departure_rate(&self, t: f64) -> f64 {
-        let [start, middle, end] = self.departures;
-        bernstein::evaluate(
-            &bernstein::derivative(&[start, 2.0 * middle - 0.5 * (start + end), end]),
-            t,
-        )
+    /// The time at which the ray at `t` sets out from its interface: it does not exist before. Interpolated between rays of
+    /// the piece.
+    #[must_use]
+    pub fn departure(&self, t: f64) -> f64 {
+        self.departures.jet(t).0
     }
 }
 

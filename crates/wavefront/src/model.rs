@@ -71,6 +71,8 @@ pub(crate) struct Landing {
 
 /// A ray that starts on an interface must not meet it again before this share of the model's size.
 const SELF_IMPACT: f64 = 1e-9;
+/// The start of a front's ray is known to this share of the model's size.
+const CLEARANCE: f64 = 2e-3;
 /// Points along an interface at which crossings with its neighbour are looked for.
 const CROSSING_SAMPLES: usize = 400;
 
@@ -313,8 +315,11 @@ impl Model {
 
     /// The interfaces above and below a layer, as far as there are any.
     fn boundaries(&self, layer: usize) -> impl Iterator<Item = usize> + use<> {
-        let below = (layer < self.interfaces.len()).then_some(layer);
-        [layer.checked_sub(1), below].into_iter().flatten()
+        let count = self.interfaces.len();
+        [layer.checked_sub(1), Some(layer)]
+            .into_iter()
+            .flatten()
+            .filter(move |&boundary| boundary < count)
     }
 
     #[inline]
@@ -322,6 +327,19 @@ impl Model {
         let parameter = left.and_then(|(at, parameter)| (at == interface).then_some(parameter));
         let margin = SELF_IMPACT * self.size() / from.distance(to);
         self.interfaces[interface].blocks(from, to, parameter, margin)
+    }
+
+    /// Whether a ray of `layer` that starts at `from`, on a boundary to a small part of the model's size, comes to `to` inside
+    /// the box without meeting a boundary.
+    pub(crate) fn is_free(&self, layer: usize, from: DVec2, to: DVec2) -> bool {
+        let way = to - from;
+        let clearance = CLEARANCE * self.size / way.length();
+        let inner = from + clearance * way;
+        self.contains(to)
+            && (clearance >= 1.0
+                || !self
+                    .boundaries(layer)
+                    .any(|boundary| self.blocks(boundary, inner, to, None)))
     }
 
     /// A ray near traced ones, by Newton's method on each interface from the expected parameters of the impacts: quick, and

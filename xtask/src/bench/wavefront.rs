@@ -119,17 +119,13 @@ fn snell(receiver: DVec2, jet: Jet) -> Vec<f64> {
         tangent.dot(down) / (down.length() * SPEEDS[0])
             - tangent.dot(on) / (on.length() * SPEEDS[1])
     };
-    let time = |x: f64| {
-        cross(x).distance(SOURCE) / SPEEDS[0] + receiver.distance(cross(x)) / SPEEDS[1]
-    };
+    let time =
+        |x: f64| cross(x).distance(SOURCE) / SPEEDS[0] + receiver.distance(cross(x)) / SPEEDS[1];
     let place = |i: u32| f64::from(i) / f64::from(GRID);
     // The way from the source stays above the interface, the way to the receiver below it.
     let is_free = |x: f64| {
         (1..100).map(|i| f64::from(i) / 100.0).all(|share| {
-            let (above, below) = (
-                SOURCE.lerp(cross(x), share),
-                receiver.lerp(cross(x), share),
-            );
+            let (above, below) = (SOURCE.lerp(cross(x), share), receiver.lerp(cross(x), share));
             above.y > jet(above.x)[0] && below.y < jet(below.x)[0]
         })
     };

@@ -95,7 +95,7 @@ mod t_quartic;
 
 mod variation;
 
-// mod wavefront;
+mod wavefront;
 
 mod wavefront_3d;
 
@@ -128,7 +128,7 @@ pub fn all() -> Vec<Entry> {
         entry::<straightest::Straightest>(),
         entry::<t_quartic::TQuartic>(),
         entry::<variation::Variation>(),
-        // entry::<wavefront::Wavefront>(),
+        entry::<wavefront::Wavefront>(),
         entry::<wavefront_3d::Wavefront3d>(),
     ]
 }
