@@ -9,6 +9,9 @@ pub enum Error {
     /// There is no face.
     #[error("the mesh has no faces")]
     EmptyMesh,
+    /// No source was given.
+    #[error("there is no point to measure distances from")]
+    NoSource,
     /// More half-edges than a `u32` can number.
     #[error("{faces} faces are too many: their half-edges must be numbered by 32 bits")]
     TooManyFaces {

@@ -14,27 +14,33 @@ pub(crate) struct FlatFace {
     /// Lengths of the other two sides, from the origin of the half-edge and from its tip to the apex.
     pub(crate) left: f64,
     pub(crate) right: f64,
+    /// The direction of the left side.
+    pub(crate) along_left: DVec2,
 }
 
 impl FlatFace {
     #[inline]
     pub(crate) fn new(mesh: &Mesh, h: u32) -> Self {
+        let (apex, left) = (apex(mesh, h), mesh.length(previous(h)));
         Self {
             length: mesh.length(h),
-            apex: apex(mesh, h),
-            left: mesh.length(previous(h)),
+            apex,
+            left,
             right: mesh.length(next(h)),
+            along_left: apex / left,
         }
     }
 
     /// The same face in a mirror that exchanges the ends of the half-edge.
     #[inline]
     pub(crate) fn mirrored(&self) -> Self {
+        let apex = DVec2::new(self.length - self.apex.x, self.apex.y);
         Self {
             length: self.length,
-            apex: DVec2::new(self.length - self.apex.x, self.apex.y),
+            apex,
             left: self.right,
             right: self.left,
+            along_left: apex / self.right,
         }
     }
 
@@ -63,14 +69,16 @@ impl FlatFace {
     /// A source in the coordinates of the left side, which run from the origin of the half-edge to the apex.
     #[inline]
     pub(crate) fn over_left(&self, source: DVec2) -> DVec2 {
-        let along = self.apex / self.left;
-        DVec2::new(along.dot(source), along.perp_dot(source))
+        DVec2::new(
+            self.along_left.dot(source),
+            self.along_left.perp_dot(source),
+        )
     }
 
     /// How far from the origin of the half-edge the ray from a source through `(x, 0)` meets the left side.
     #[inline]
     pub(crate) fn meet_left(&self, source: DVec2, x: f64) -> f64 {
-        let along = self.apex / self.left;
+        let along = self.along_left;
         let descent = along.y * (source.x - x) - along.x * source.y;
         if descent > 0.0 {
             (-source.y * x / descent).min(self.left)
@@ -93,17 +101,6 @@ pub(crate) fn apex(mesh: &Mesh, h: u32) -> DVec2 {
     let side = mesh.position(mesh.apex(h)) - mesh.position(mesh.origin(h));
     let along = mesh.position(mesh.tip(h)) - mesh.position(mesh.origin(h));
     DVec2::new(x, side.cross(along).length() / base)
-}
-
-/// A window in a mirror that exchanges the ends of an edge.
-#[inline]
-pub(crate) fn mirrored(window: &Window, length: f64) -> Window {
-    Window {
-        start: length - window.end,
-        end: length - window.start,
-        source: DVec2::new(length - window.source.x, window.source.y),
-        ..*window
-    }
 }
 
 /// A point of the face of `h` in the coordinates of `h`.

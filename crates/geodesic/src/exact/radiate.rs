@@ -5,10 +5,10 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec2;
 
 use super::face::{apex, local_coordinates};
-use super::sweep::{Arrival, Sweep};
+use super::sweep::{Arrival, POINT_SOURCE, Sweep};
 use super::window::Window;
-use crate::FLAT_ANGLE;
 use crate::mesh::{NONE, face_of, next, previous};
+use crate::{FLAT_ANGLE, SurfacePoint};
 
 /// The directions in which ways go on from a vertex are widened by this, in radians, against the rounding of their angles.
 const WEDGE_SLACK: f64 = 1e-9;
@@ -129,7 +129,7 @@ impl Sweep<'_> {
         let low = if from > 0.0 { foot(from) } else { 0.0 };
         let high = if to < corner { foot(to) } else { length };
         if low < high {
-            self.insert(
+            self.admit(
                 twin,
                 Window {
                     start: length - high,
@@ -140,6 +140,44 @@ impl Sweep<'_> {
                     older: NONE,
                 },
             );
+        }
+    }
+
+    /// A source on an edge or inside a face: straight to the corners of its faces and through their edges.
+    pub(super) fn radiate_inside(&mut self, point: SurfacePoint, number: u32) {
+        let mesh = self.mesh;
+        for f in mesh.faces_of(point) {
+            let position = mesh.locate(point);
+            for h in 3 * f..3 * f + 3 {
+                let (a, b) = (mesh.position(mesh.origin(h)), mesh.position(mesh.tip(h)));
+                self.reach(
+                    mesh.origin(h),
+                    (position - a).length(),
+                    Arrival::Source(number),
+                );
+                // An edge that the source lies on is not crossed but shared: its other face is one of the source's faces.
+                let on_edge = matches!(point, SurfacePoint::Edge { halfedge, .. }
+                    if halfedge == h || mesh.twins()[halfedge as usize] == h);
+                let twin = mesh.twins()[h as usize];
+                if on_edge || twin == NONE {
+                    continue;
+                }
+                let length = mesh.length(h);
+                let along = (b - a) / length;
+                let x = (position - a).dot(along);
+                let height = (position - a).cross(along).length();
+                self.admit(
+                    twin,
+                    Window {
+                        start: 0.0,
+                        end: length,
+                        source: DVec2::new(length - x, -height),
+                        base: 0.0,
+                        origin: POINT_SOURCE | number,
+                        older: NONE,
+                    },
+                );
+            }
         }
     }
 }

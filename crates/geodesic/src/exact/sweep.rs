@@ -3,12 +3,11 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
-use super::face::{FlatFace, mirrored};
-use super::field::{BEND_SNAP, DistanceField};
-use super::window::{Window, trim};
-use crate::mesh::{Mesh, NONE, face_of, next, previous};
+use super::field::DistanceField;
+use super::window::Window;
+use crate::mesh::{Mesh, NONE, face_of};
 use crate::{Error, SurfacePoint};
 
 /// Computes exact geodesic distances on a mesh, sweep after sweep, in buffers that are kept.
@@ -27,16 +26,30 @@ pub struct Sweep<'m> {
     pub(super) sources: Vec<SurfacePoint>,
     pub(super) distances: Vec<f64>,
     arrivals: Vec<Arrival>,
-    entrances: Vec<Entrance>,
-    windows: Vec<Window>,
+    pub(super) entrances: Vec<Entrance>,
+    pub(super) windows: Vec<Window>,
     /// Windows cut down to nothing, linked like those of a half-edge.
-    free: u32,
+    pub(super) free: u32,
     queue: BinaryHeap<Reverse<(u64, u32)>>,
     /// Vertices and half-edges that the sweep has written to.
     touched_vertices: Vec<u32>,
     touched_halfedges: Vec<u32>,
-    batch: Vec<Window>,
-    slots: Vec<u32>,
+    pub(super) batch: Vec<Window>,
+    pub(super) slots: Vec<u32>,
+    purpose: Purpose,
+    /// Where the target lies.
+    ahead: Option<DVec3>,
+}
+
+/// What a sweep is for: when it stops, and which windows it keeps.
+#[derive(Clone, Copy, Debug)]
+enum Purpose {
+    /// Distances of the vertices: no window is kept.
+    Vertices,
+    /// Distances of all points up to a limit.
+    Field { limit: f64 },
+    /// The distance of one point.
+    Target(SurfacePoint),
 }
 
 /// How a vertex got its distance.
@@ -57,16 +70,16 @@ pub(crate) enum Arrival {
 
 /// What has come in through a half-edge.
 #[derive(Clone, Copy, Debug)]
-struct Entrance {
+pub(super) struct Entrance {
     /// The latest window; the older ones are linked to it.
-    newest: u32,
+    pub(super) newest: u32,
     /// How many of them wait to go on.
-    waiting: u32,
+    pub(super) waiting: u32,
     /// The least distance of those that wait: the key in the queue.
-    key: f64,
+    pub(super) key: f64,
     /// The shortest way through this half-edge to the apex so far, and where it crosses.
-    apex_distance: f64,
-    apex_crossing: f64,
+    pub(super) apex_distance: f64,
+    pub(super) apex_crossing: f64,
 }
 
 impl Entrance {
@@ -83,8 +96,6 @@ impl Entrance {
 const VERTEX: u32 = 1 << 31;
 /// Numbers of sources that are no vertices carry this bit.
 pub(crate) const POINT_SOURCE: u32 = 1 << 31;
-/// A vertex distance makes a window useless if it is shorter by more than this share: equal ones stay.
-const FILTER_SLACK: f64 = 1e-12;
 
 impl<'m> Sweep<'m> {
     /// A sweep over a mesh, with empty buffers.
@@ -103,6 +114,8 @@ impl<'m> Sweep<'m> {
             touched_halfedges: Vec::new(),
             batch: Vec::new(),
             slots: Vec::new(),
+            purpose: Purpose::Vertices,
+            ahead: None,
         }
     }
 
@@ -116,7 +129,7 @@ impl<'m> Sweep<'m> {
     ///
     /// # Errors
     ///
-    /// [`Error::EmptyMesh`] without sources; an error about a point that is not on the mesh.
+    /// [`Error::NoSource`] without sources; an error about a point that is not on the mesh.
     pub fn from_points(
         &mut self,
         sources: &[SurfacePoint],
@@ -134,26 +147,42 @@ impl<'m> Sweep<'m> {
         sources: &[SurfacePoint],
         limit: f64,
     ) -> Result<DistanceField<'_, 'm>, Error> {
-        self.start(sources)?;
-        self.run(limit, None);
+        self.start(sources, Purpose::Field { limit })?;
+        // What lies beyond is known from above only.
+        for &v in &self.touched_vertices {
+            let distance = &mut self.distances[v as usize];
+            if *distance > limit {
+                *distance = f64::INFINITY;
+            }
+        }
         Ok(DistanceField { sweep: self })
     }
 
-    /// The exact distance between two points; the sweep stops when it reaches the second one, so that the time grows with
-    /// the distance and not with the mesh.
+    /// Exact distances of all vertices in order, infinite where there is no way from a source: as [`Sweep::from_points`],
+    /// with memory for the front of the sweep only.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Sweep::from_points`].
+    pub fn vertex_distances(&mut self, sources: &[SurfacePoint]) -> Result<&[f64], Error> {
+        self.start(sources, Purpose::Vertices)?;
+        Ok(&self.distances)
+    }
+
+    /// The exact distance between two points.
+    ///
+    /// Only what may lie on a shortest path is swept, by the straight distance in space that is left to go, and the sweep
+    /// stops when it has reached the second point: its time grows with the distance and not with the mesh.
     ///
     /// # Errors
     ///
     /// An error about a point that is not on the mesh; [`Error::NoPath`] between components.
     pub fn distance(&mut self, from: SurfacePoint, to: SurfacePoint) -> Result<f64, Error> {
         let to = self.mesh.canonical(to)?;
-        self.start(&[from])?;
-        self.run(f64::INFINITY, Some(to));
-        let distance = DistanceField { sweep: self }.distance(to)?;
-        if distance.is_finite() {
-            Ok(distance)
-        } else {
-            Err(Error::NoPath { from, to })
+        self.start(&[from], Purpose::Target(to))?;
+        match (DistanceField { sweep: self }).nearest(to) {
+            Some((distance, _)) => Ok(distance),
+            None => Err(Error::NoPath { from, to }),
         }
     }
 
@@ -199,16 +228,15 @@ impl<'m> Sweep<'m> {
         &self.sources
     }
 
-    /// Empties what the last sweep touched, and puts the sources in.
-    fn start(&mut self, sources: &[SurfacePoint]) -> Result<(), Error> {
-        let canonical = sources
-            .iter()
-            .map(|&point| self.mesh.canonical(point))
-            .collect::<Result<Vec<_>, _>>()?;
-        if canonical.is_empty() {
-            return Err(Error::EmptyMesh);
+    /// Empties what the last sweep touched, puts the sources in, and sweeps.
+    fn start(&mut self, sources: &[SurfacePoint], purpose: Purpose) -> Result<(), Error> {
+        self.sources.clear();
+        for &point in sources {
+            self.sources.push(self.mesh.canonical(point)?);
         }
-        self.sources = canonical;
+        if self.sources.is_empty() {
+            return Err(Error::NoSource);
+        }
         for h in self.touched_halfedges.drain(..) {
             self.entrances[h as usize] = Entrance::UNTOUCHED;
         }
@@ -219,12 +247,18 @@ impl<'m> Sweep<'m> {
         self.windows.clear();
         self.free = NONE;
         self.queue.clear();
+        self.purpose = purpose;
+        self.ahead = match purpose {
+            Purpose::Target(point) => Some(self.mesh.locate(point)),
+            _ => None,
+        };
         for number in 0..self.sources.len() as u32 {
             match self.sources[number as usize] {
                 SurfacePoint::Vertex(v) => self.reach(v, 0.0, Arrival::Source(number)),
                 point => self.radiate_inside(point, number),
             }
         }
+        self.run();
         Ok(())
     }
 
@@ -239,7 +273,8 @@ impl<'m> Sweep<'m> {
             *known = distance;
             self.arrivals[v as usize] = arrival;
             if self.radiates(v) {
-                self.queue.push(Reverse((distance.to_bits(), v | VERTEX)));
+                let key = self.vertex_key(v);
+                self.queue.push(Reverse((key.to_bits(), v | VERTEX)));
             }
         }
     }
@@ -250,24 +285,54 @@ impl<'m> Sweep<'m> {
     }
 
     /// Puts a window on its half-edge, to wait there, and the half-edge into the queue.
-    pub(super) fn insert(&mut self, h: u32, window: Window) {
+    pub(super) fn admit(&mut self, h: u32, window: Window) {
         self.hold(h, window);
         self.enqueue(h, window.least());
     }
 
-    /// Puts a half-edge into the queue, at the least distance of its windows.
+    /// Puts a half-edge into the queue, by the least distance of its windows.
     #[inline]
-    fn enqueue(&mut self, h: u32, least: f64) {
+    pub(super) fn enqueue(&mut self, h: u32, least: f64) {
+        let key = least + self.ahead_of_edge(h);
         let entrance = &mut self.entrances[h as usize];
-        if least < entrance.key {
-            entrance.key = least;
-            self.queue.push(Reverse((least.to_bits(), h)));
+        if key < entrance.key {
+            entrance.key = key;
+            self.queue.push(Reverse((key.to_bits(), h)));
+        }
+    }
+
+    /// The key of a vertex in the queue: the least length of a way by it to the target.
+    #[inline]
+    fn vertex_key(&self, v: u32) -> f64 {
+        let left = self
+            .ahead
+            .map_or(0.0, |target| self.mesh.position(v).distance(target));
+        self.distances[v as usize] + left
+    }
+
+    /// What is left to go from an edge to the target, at least.
+    #[inline]
+    fn ahead_of_edge(&self, h: u32) -> f64 {
+        let mesh = self.mesh;
+        self.ahead.map_or(0.0, |target| {
+            let middle = 0.5 * (mesh.position(mesh.origin(h)) + mesh.position(mesh.tip(h)));
+            (middle.distance(target) - 0.5 * mesh.length(h)).max(0.0)
+        })
+    }
+
+    /// Whether windows of a half-edge are kept when they have gone on.
+    #[inline]
+    pub(super) fn keeps(&self, h: u32) -> bool {
+        match self.purpose {
+            Purpose::Vertices => false,
+            Purpose::Field { .. } => true,
+            Purpose::Target(point) => self.mesh.face_contains(face_of(h), point),
         }
     }
 
     /// Puts a window on its half-edge.
     #[inline]
-    fn hold(&mut self, h: u32, mut window: Window) {
+    pub(super) fn hold(&mut self, h: u32, mut window: Window) {
         let entrance = &mut self.entrances[h as usize];
         if entrance.newest == NONE && entrance.apex_distance.is_infinite() {
             self.touched_halfedges.push(h);
@@ -286,12 +351,12 @@ impl<'m> Sweep<'m> {
     }
 
     /// Works off the queue, up to a distance or until nothing in it can bring the target nearer.
-    fn run(&mut self, limit: f64, target: Option<SurfacePoint>) {
-        let to_target = |sweep: &Self| match target {
-            Some(point) => DistanceField { sweep }.nearest(point).map(|(d, _)| d),
-            None => None,
+    fn run(&mut self) {
+        let mut limit = match self.purpose {
+            Purpose::Vertices => f64::INFINITY,
+            Purpose::Field { limit } => limit,
+            Purpose::Target(point) => self.known_distance(point),
         };
-        let mut limit = to_target(self).unwrap_or(f64::INFINITY).min(limit);
         while let Some(Reverse((bits, item))) = self.queue.pop() {
             let key = f64::from_bits(bits);
             if key > limit {
@@ -299,7 +364,7 @@ impl<'m> Sweep<'m> {
             }
             let (v, h) = (item & !VERTEX, item);
             let is_vertex = item & VERTEX != 0;
-            if is_vertex && self.distances[v as usize] == key {
+            if is_vertex && self.vertex_key(v) == key {
                 self.radiate(v);
             } else if !is_vertex && self.entrances[h as usize].key == key {
                 self.enter(h);
@@ -307,233 +372,21 @@ impl<'m> Sweep<'m> {
                 continue;
             }
             // The last stretch of a shortest way to the target begins at a vertex or enters by a half-edge of its face.
-            if let Some(point) = target
+            if let Purpose::Target(point) = self.purpose
                 && self.mesh.faces_of(point).any(|f| match is_vertex {
                     true => self.mesh.faces()[f as usize].contains(&v),
                     false => face_of(h) == f,
                 })
-                && let Some(distance) = to_target(self)
             {
-                limit = limit.min(distance);
+                limit = limit.min(self.known_distance(point));
             }
         }
     }
 
-    /// The windows that wait at a half-edge go on through its face and leave by its other edges.
-    fn enter(&mut self, h: u32) {
-        let mesh = self.mesh;
-        let face = FlatFace::new(mesh, h);
-        let (origin, tip, top) = (mesh.origin(h), mesh.tip(h), mesh.apex(h));
-        let mut batch = self.take_waiting(h, &face);
-        self.arrive_at_apex(h, &face, &batch);
-        let split = self.entrances[h as usize].apex_crossing;
-        let distances = [origin, tip, top].map(|v| self.vertex_distance(v));
-        let left = mesh.twins()[previous(h) as usize];
-        if left != NONE {
-            let corners = Corners {
-                shared: distances[0],
-                apex: distances[2],
-                behind: distances[1],
-            };
-            let mut least = f64::INFINITY;
-            for window in &batch {
-                let to = window.end.min(split);
-                if let Some(child) = leave_left(&face, window, window.start, to, &corners) {
-                    least = least.min(child.least());
-                    self.hold(left, child);
-                }
-            }
-            self.enqueue(left, least);
-        }
-        let right = mesh.twins()[next(h) as usize];
-        if right != NONE {
-            let face = face.mirrored();
-            let corners = Corners {
-                shared: distances[1],
-                apex: distances[2],
-                behind: distances[0],
-            };
-            let mut least = f64::INFINITY;
-            for window in &batch {
-                let window = mirrored(window, face.length);
-                let to = window.end.min(face.length - split);
-                if let Some(child) = leave_left(&face, &window, window.start, to, &corners) {
-                    least = least.min(child.least());
-                    self.hold(right, mirrored(&child, face.left));
-                }
-            }
-            self.enqueue(right, least);
-        }
-        batch.clear();
-        self.batch = batch;
+    /// The distance of a canonical point, as far as it is known.
+    fn known_distance(&self, point: SurfacePoint) -> f64 {
+        DistanceField { sweep: self }
+            .nearest(point)
+            .map_or(f64::INFINITY, |(distance, _)| distance)
     }
-
-    /// Takes copies of the windows that wait, trimmed, and puts what is left of them back among those that have passed.
-    fn take_waiting(&mut self, h: u32, face: &FlatFace) -> Vec<Window> {
-        let mesh = self.mesh;
-        let mut batch = std::mem::take(&mut self.batch);
-        let entrance = &mut self.entrances[h as usize];
-        entrance.key = f64::INFINITY;
-        let mut at = entrance.newest;
-        self.slots.clear();
-        for _ in 0..entrance.waiting {
-            self.slots.push(at);
-            let window = self.windows[at as usize];
-            batch.push(window);
-            at = window.older;
-        }
-        entrance.waiting = 0;
-        let (from_origin, from_tip) = (
-            self.distances[mesh.origin(h) as usize],
-            self.distances[mesh.tip(h) as usize],
-        );
-        if batch.len() > 1 {
-            trim(&mut batch);
-        }
-        batch.retain(|window| {
-            !(is_shorter(from_origin + window.end, window.distance(window.end))
-                || is_shorter(
-                    from_tip + face.length - window.start,
-                    window.distance(window.start),
-                ))
-        });
-        for (i, &slot) in self.slots.iter().enumerate() {
-            if let Some(window) = batch.get(i) {
-                self.windows[slot as usize] = Window {
-                    older: at,
-                    ..*window
-                };
-                at = slot;
-            } else {
-                self.windows[slot as usize].older = self.free;
-                self.free = slot;
-            }
-        }
-        entrance.newest = at;
-        batch
-    }
-
-    /// Finds the shortest way of a batch to the apex of the face. Where it crosses the half-edge, the face is divided: no
-    /// shortest way crosses that way, so that windows on its left leave by the left side and windows on its right by the
-    /// right side (Chen and Han's one angle, one split).
-    fn arrive_at_apex(&mut self, h: u32, face: &FlatFace, batch: &[Window]) {
-        let entrance = &mut self.entrances[h as usize];
-        let mut best = None;
-        for window in batch {
-            let (distance, crossing, is_straight) = face.way_to_apex(window);
-            if distance < entrance.apex_distance {
-                entrance.apex_distance = distance;
-                entrance.apex_crossing = crossing;
-                best = Some((window, is_straight));
-            }
-        }
-        let Some((window, is_straight)) = best else {
-            return;
-        };
-        let (distance, crossing) = (entrance.apex_distance, entrance.apex_crossing);
-        let mesh = self.mesh;
-        let top = mesh.apex(h);
-        let near = BEND_SNAP * face.length;
-        if !is_straight && crossing < near {
-            let v = mesh.origin(h);
-            self.reach(top, self.vertex_distance(v) + face.left, Arrival::Edge(v));
-        } else if !is_straight && crossing > face.length - near {
-            let v = mesh.tip(h);
-            self.reach(top, self.vertex_distance(v) + face.right, Arrival::Edge(v));
-        } else {
-            let arrival = Arrival::Window {
-                halfedge: h,
-                source: window.source,
-                origin: window.origin,
-            };
-            self.reach(top, distance, arrival);
-        }
-    }
-
-    /// A source on an edge or inside a face: straight to the corners of its faces and through their edges.
-    fn radiate_inside(&mut self, point: SurfacePoint, number: u32) {
-        let mesh = self.mesh;
-        for f in mesh.faces_of(point) {
-            let position = mesh.locate(point);
-            for h in 3 * f..3 * f + 3 {
-                let (a, b) = (mesh.position(mesh.origin(h)), mesh.position(mesh.tip(h)));
-                self.reach(
-                    mesh.origin(h),
-                    (position - a).length(),
-                    Arrival::Source(number),
-                );
-                // An edge that the source lies on is not crossed but shared: its other face is one of the source's faces.
-                let on_edge = matches!(point, SurfacePoint::Edge { halfedge, .. }
-                    if halfedge == h || mesh.twins()[halfedge as usize] == h);
-                let twin = mesh.twins()[h as usize];
-                if on_edge || twin == NONE {
-                    continue;
-                }
-                let length = mesh.length(h);
-                let along = (b - a) / length;
-                let x = (position - a).dot(along);
-                let height = (position - a).cross(along).length();
-                self.insert(
-                    twin,
-                    Window {
-                        start: 0.0,
-                        end: length,
-                        source: DVec2::new(length - x, -height),
-                        base: 0.0,
-                        origin: POINT_SOURCE | number,
-                        older: NONE,
-                    },
-                );
-            }
-        }
-    }
-}
-
-/// Distances of the corners of a face, seen from a window that leaves by the side between the shared corner and the apex.
-struct Corners {
-    shared: f64,
-    apex: f64,
-    behind: f64,
-}
-
-/// The part `[from, to]` of a window on the left side of its face, in the coordinates of the half-edge that leads away there;
-/// `None` where nothing is left of it, or where a corner of the face is the nearer source for all of it (Xin and Wang's
-/// filter).
-#[inline]
-fn leave_left(
-    face: &FlatFace,
-    window: &Window,
-    from: f64,
-    to: f64,
-    corners: &Corners,
-) -> Option<Window> {
-    let crossing = face.apex_crossing(window.source);
-    let start = face.meet_left(window.source, from);
-    let end = if to >= crossing {
-        face.left
-    } else {
-        face.meet_left(window.source, to)
-    };
-    let leaves = from < to && from < crossing && start < end;
-    if !leaves {
-        return None;
-    }
-    let child = Window {
-        start,
-        end,
-        source: face.over_left(window.source),
-        ..*window
-    };
-    let (near, far) = (child.distance(start), child.distance(end));
-    let corner = DVec2::new(face.length, 0.0);
-    let foot = face.apex * (start / face.left);
-    let useless = is_shorter(corners.shared + end, far)
-        || is_shorter(corners.apex + face.left - start, near)
-        || is_shorter(corners.behind + corner.distance(foot), near);
-    (!useless).then_some(child)
-}
-
-#[inline]
-fn is_shorter(by_vertex: f64, by_window: f64) -> bool {
-    by_vertex < by_window * (1.0 - FILTER_SLACK)
 }

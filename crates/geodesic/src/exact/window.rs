@@ -34,6 +34,17 @@ impl Window {
         self.distance(self.source.x.clamp(self.start, self.end))
     }
 
+    /// The window in a mirror that exchanges the ends of the edge.
+    #[inline]
+    pub(crate) fn mirrored(&self, length: f64) -> Self {
+        Self {
+            start: length - self.end,
+            end: length - self.start,
+            source: DVec2::new(length - self.source.x, self.source.y),
+            ..*self
+        }
+    }
+
     /// Whether anything is left of it.
     #[inline]
     fn spans(&self) -> bool {
