@@ -6,10 +6,13 @@
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
+use std::f64::consts::FRAC_PI_2;
 
-use crate::loops::{GeodesicLoop, LoopFinder};
+use glam::DVec3;
+
+use crate::loops::{DirectedLoop, GeodesicLoop, LoopFinder};
 use crate::mesh::{Mesh, NONE, face_of, next, previous};
-use crate::{Error, SurfacePoint};
+use crate::{Error, Straightest, SurfacePoint};
 
 /// Start vertices tried in a search for a short loop, spread evenly over those that every loop of the class passes.
 const STARTS: usize = 24;
@@ -91,16 +94,17 @@ impl<'m> TorusClasses<'m> {
 
     /// A closed geodesic of class `(p, q)`: the shortest loop along edges, of those through some vertices, made tight.
     ///
+    /// It is certified to be a geodesic, and it belongs to the class. That no other loop of the class is shorter is *not*
+    /// proved: tightening ends in the valley where the loop along edges lies, and the vertices tried are a sample. Where `p`
+    /// and `q` have a common divisor the shortest loop is that of the primitive class, gone round repeatedly, up to what
+    /// vertices in the way make of it.
+    ///
     /// # Errors
     ///
     /// [`Error::NullLoop`] for class (0, 0); [`Error::LoopNotFound`] if the search is given up; those of
     /// [`LoopFinder::tighten`].
     pub fn shortest(&mut self, p: i32, q: i32) -> Result<GeodesicLoop, Error> {
-        let [a, b] = self.basis;
-        let target = [0, 1].map(|k| {
-            p.saturating_mul(a[k])
-                .saturating_add(q.saturating_mul(b[k]))
-        });
+        let target = self.crossings_of_class([p, q]);
         let Some(crossed) = (0..2).find(|&k| target[k] != 0) else {
             return Err(Error::NullLoop {
                 length: 0.0,
@@ -119,9 +123,8 @@ impl<'m> TorusClasses<'m> {
         let mut settled = 0;
         for &start in starts.iter().step_by(stride) {
             let bound = best.as_ref().map_or(f64::INFINITY, |b| b.0);
-            if let Some(found) = self.shortest_through(start, target, bound, &mut settled) {
-                best = Some(found);
-            }
+            let found = self.shortest_through(start, &[target], bound, &mut settled);
+            best = found.into_iter().next().flatten().or(best);
         }
         let (_, points) = best.ok_or(Error::LoopNotFound {
             p,
@@ -131,14 +134,81 @@ impl<'m> TorusClasses<'m> {
         self.finder.tighten(&points)
     }
 
-    /// The shortest loop along edges through a vertex with the given crossings, if it is shorter than `bound`.
+    /// Loops of all classes with `|p|, |q| <= largest` held at a point, as answers to "through this point, in this
+    /// direction": those that leave the point within a right angle of the direction, with their classes, sorted by the sum of
+    /// their residuals.
+    ///
+    /// A closed geodesic through the point in the direction exists only for special directions; where both residuals vanish
+    /// it has been found. [`LoopFinder::through`] looks for the same on meshes of any kind, along one ray. Each loop is
+    /// shortest among its neighbours, not proved to be so in its class.
+    ///
+    /// # Errors
+    ///
+    /// An error about the point; [`Error::DirectionLeavesFace`] if no face lies in the direction; those of
+    /// [`LoopFinder::held_at_first`]. A class whose search is given up is left out.
+    pub fn through(
+        &mut self,
+        point: SurfacePoint,
+        direction: DVec3,
+        largest: u32,
+    ) -> Result<Vec<([i32; 2], DirectedLoop)>, Error> {
+        let mesh = self.mesh;
+        let point = mesh.canonical(point)?;
+        let face = Straightest::new(mesh)
+            .face_towards(point, direction)
+            .ok_or(Error::DirectionLeavesFace { face: 0 })?;
+        let start = mesh.faces()[face as usize];
+        let nearest = |a: &&u32, b: &&u32| {
+            let distance = |v: u32| mesh.position(v).distance(mesh.locate(point));
+            distance(**a).total_cmp(&distance(**b))
+        };
+        let start = start.iter().min_by(nearest).copied().unwrap_or(start[0]);
+        let largest = i32::try_from(largest).unwrap_or(i32::MAX);
+        let classes = (-largest..=largest).flat_map(|p| (-largest..=largest).map(move |q| [p, q]));
+        let classes: Vec<[i32; 2]> = classes.filter(|&class| class != [0, 0]).collect();
+        let targets: Vec<[i32; 2]> = classes
+            .iter()
+            .map(|&c| self.crossings_of_class(c))
+            .collect();
+        let loops = self.shortest_through(start, &targets, f64::INFINITY, &mut 0);
+        let mut answers = Vec::new();
+        for (class, found) in classes.into_iter().zip(loops) {
+            let Some((_, mut points)) = found else {
+                continue;
+            };
+            // From the point to the vertex, round, and back to the point in the same face.
+            if point != SurfacePoint::Vertex(start) {
+                points.push(start.into());
+                points.insert(0, point);
+            }
+            let geodesic = self.finder.held_at_first(&points)?;
+            let answer = DirectedLoop::new(mesh, point, direction, geodesic);
+            if answer.direction_residual <= FRAC_PI_2 {
+                answers.push((class, answer));
+            }
+        }
+        answers.sort_by(|a, b| a.1.residual().total_cmp(&b.1.residual()));
+        Ok(answers)
+    }
+
+    /// How often loops of a class cross the dual curves.
+    fn crossings_of_class(&self, [p, q]: [i32; 2]) -> [i32; 2] {
+        let [a, b] = self.basis;
+        [0, 1].map(|k| {
+            p.saturating_mul(a[k])
+                .saturating_add(q.saturating_mul(b[k]))
+        })
+    }
+
+    /// For each of the given crossings, the shortest loop along edges through a vertex that has them, if it is shorter than
+    /// `bound`, with its length.
     fn shortest_through(
         &self,
         start: u32,
-        target: [i32; 2],
+        targets: &[[i32; 2]],
         bound: f64,
         settled: &mut usize,
-    ) -> Option<(f64, Vec<SurfacePoint>)> {
+    ) -> Vec<Option<(f64, Vec<SurfacePoint>)>> {
         // A vertex of the covering plane: the vertex and the crossings on the way to it.
         type Sheet = (u32, [i32; 2]);
         let mut known: HashMap<Sheet, (f64, Sheet)> = HashMap::new();
@@ -146,16 +216,19 @@ impl<'m> TorusClasses<'m> {
         let origin = (start, [0, 0]);
         known.insert(origin, (0.0, origin));
         heap.push(Reverse((0u64, origin)));
+        let mut loops = vec![None; targets.len()];
+        let mut missing = targets.len();
         while let Some(Reverse((key, here))) = heap.pop() {
             let distance = f64::from_bits(key);
-            if distance >= bound || *settled >= BUDGET {
-                return None;
+            if missing == 0 || distance >= bound || *settled >= BUDGET {
+                break;
             }
             if known.get(&here).is_some_and(|k| k.0 < distance) {
                 continue;
             }
             *settled += 1;
-            if here == (start, target) {
+            let reached = targets.iter().position(|&t| (start, t) == here);
+            if let Some(target) = reached.filter(|&t| loops[t].is_none()) {
                 let mut points = Vec::new();
                 let mut at = here;
                 while let Some(&(_, before)) = known.get(&at).filter(|k| k.1 != at) {
@@ -163,7 +236,8 @@ impl<'m> TorusClasses<'m> {
                     at = before;
                 }
                 points.reverse();
-                return Some((distance, points));
+                loops[target] = Some((distance, points));
+                missing -= 1;
             }
             for h in self.mesh.star(here.0) {
                 let [x, y] = self.crossings[h as usize];
@@ -176,7 +250,7 @@ impl<'m> TorusClasses<'m> {
                 }
             }
         }
-        None
+        loops
     }
 }
 

@@ -3,7 +3,10 @@
 use std::f64::consts::PI;
 
 use geodesic::glam::DVec3;
-use geodesic::{Error, LoopFinder, Mesh, SurfacePoint, TorusClasses, shapes};
+use geodesic::{
+    Error, LoopFinder, Mesh, SubdivisionSurface, SurfacePoint, TorusClasses, closed_torus_geodesic,
+    shapes,
+};
 
 const MAJOR: f64 = 2.0;
 const MINOR: f64 = 0.7;
@@ -161,4 +164,97 @@ fn classes_of_a_torus() {
     let mesh = shapes::torus(MAJOR, MINOR, 12, 8).unwrap();
     let answer = TorusClasses::new(&mesh, &row(12, 0), &row(12, 3));
     assert!(matches!(answer, Err(Error::NotABasis { determinant: 0 })));
+}
+
+/// Classes with small numbers, of either sign, against Clairaut's relation; `(k, 0)` against the inner equator.
+#[test]
+fn every_class_of_a_torus() {
+    let (around, tube) = (16, 8);
+    let mesh = shapes::torus(MAJOR, MINOR, around, tube).unwrap();
+    let mut classes = TorusClasses::new(&mesh, &row(around, 0), &column(around, tube, 0)).unwrap();
+    for (p, q) in [(1, 0), (0, -1), (-1, 1), (2, 1), (-1, -2), (0, 2)] {
+        let geodesic = classes.shortest(p, q).unwrap();
+        let certificate = geodesic.certify(&mesh).unwrap();
+        assert!(certificate.is_geodesic(), "({p}, {q}): {certificate:?}");
+        let points = &geodesic.path().points()[1..];
+        assert_eq!(classes.class_of(points), Ok([p, q]));
+        let smooth = match q {
+            0 => f64::from(i32::abs(p)) * 2.0 * PI * (MAJOR - MINOR),
+            _ => {
+                let (p, q) = (i32::unsigned_abs(p), i32::unsigned_abs(q));
+                closed_torus_geodesic(MAJOR, MINOR, p, q).unwrap().length
+            }
+        };
+        let error = geodesic.length() / smooth - 1.0;
+        assert!(error.abs() < 0.05, "({p}, {q}): {error}");
+    }
+}
+
+/// A point of the closed geodesic (1, 3) and its direction there: on finer meshes the loop that is found leaves it
+/// ever closer to that direction.
+#[test]
+fn the_loop_through_a_point_of_a_closed_geodesic() {
+    let smooth = closed_torus_geodesic(MAJOR, MINOR, 1, 3).unwrap();
+    // At the top of the tube ρ is the major radius, and ρ cos ψ the constant.
+    let cosine = smooth.clairaut / MAJOR;
+    let mut residuals = Vec::new();
+    for (around, tube) in [(16, 8), (32, 16), (64, 32)] {
+        let mesh = shapes::torus(MAJOR, MINOR, around, tube).unwrap();
+        let v = tube / 4 * around;
+        let here = mesh.positions()[v as usize];
+        // Downwards at the top is inwards: along -x at the point (2, 0, 0.7).
+        let direction = DVec3::new(-(1.0 - cosine * cosine).sqrt(), cosine, 0.0);
+        assert!(here.distance(DVec3::new(MAJOR, 0.0, MINOR)) < 1e-12);
+        let mut classes =
+            TorusClasses::new(&mesh, &row(around, 0), &column(around, tube, 0)).unwrap();
+        let answers = classes.through(v.into(), direction, 3).unwrap();
+        let (class, best) = &answers[0];
+        assert_eq!(*class, [1, 3], "{}", best.residual());
+        assert!((best.geodesic.length() / smooth.length - 1.0).abs() < 0.05);
+        assert!(
+            answers
+                .windows(2)
+                .all(|pair| pair[0].1.residual() <= pair[1].1.residual())
+        );
+        assert!(best.closing_residual < 0.06);
+        residuals.push(best.direction_residual);
+    }
+    assert!(
+        residuals[2] < 0.03 && residuals.is_sorted_by(|a, b| a > b),
+        "{residuals:?}"
+    );
+}
+
+/// Loops carried over the levels of a subdivision surface become smooth: the largest turn falls with the edges.
+#[test]
+fn loops_of_a_subdivision_surface() {
+    let (around, tube) = (10, 6);
+    let coarse = shapes::torus(MAJOR, 0.9, around, tube).unwrap();
+    let mut surface = SubdivisionSurface::loop_scheme(&coarse).unwrap();
+    let mut points: Vec<SurfacePoint> = (0..2 * around)
+        .map(|k| (k / 2 % around + k * tube / (2 * around) % tube * around).into())
+        .collect();
+    let (mut lengths, mut turns) = (Vec::new(), Vec::new());
+    for _ in 0..4 {
+        let tight = LoopFinder::new(surface.mesh()).tighten(&points).unwrap();
+        assert!(tight.certify(surface.mesh()).unwrap().is_geodesic());
+        lengths.push(tight.length());
+        turns.push(largest_turn(tight.path().positions()));
+        let carried = tight.path().points()[1..].iter().map(|p| surface.carry(*p));
+        points = carried.collect::<Result<_, _>>().unwrap();
+        surface = surface.refined().unwrap();
+    }
+    let changes: Vec<f64> = lengths.windows(2).map(|l| (l[1] - l[0]).abs()).collect();
+    assert!(
+        changes[1] < 0.5 * changes[0] && changes[2] < 0.5 * changes[1],
+        "{lengths:?}"
+    );
+    assert!(turns.windows(2).all(|t| t[1] < t[0]), "{turns:?}");
+}
+
+fn largest_turn(positions: &[DVec3]) -> f64 {
+    let mut points = positions.to_vec();
+    points.dedup_by(|a, b| a.distance(*b) < 1e-6);
+    let turn = |p: &[DVec3]| (p[1] - p[0]).angle_between(p[2] - p[1]);
+    points.windows(3).map(turn).fold(0.0, f64::max)
 }
