@@ -170,6 +170,14 @@ pub enum Error {
         /// The end of the path that the sequence misses.
         point: SurfacePoint,
     },
+    /// A segment of a polyline has no length or does not lie in a face.
+    #[error(
+        "point {position} of the polyline and the next one are the same or lie in no common face"
+    )]
+    SegmentLeavesFace {
+        /// Position of the first of them.
+        position: usize,
+    },
     /// Shortening was stopped before the path was locally shortest.
     #[error("the path was not locally shortest after {updates} updates")]
     NotConverged {

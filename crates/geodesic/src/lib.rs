@@ -75,8 +75,10 @@
 #[doc = include_str!("../README.md")]
 struct ReadmeDoctests;
 
+mod batch;
 #[cfg(feature = "closest-point")]
 mod closest;
+mod curvature;
 mod error;
 mod exact;
 mod finder;
@@ -87,6 +89,7 @@ mod mesh;
 mod path;
 mod pivot;
 mod search;
+mod sequence;
 pub mod shapes;
 mod straightest;
 mod strip;
@@ -95,10 +98,11 @@ mod surface_point;
 mod torus;
 mod unfold;
 
+pub use batch::{exact_distances, exact_distances_to_all, shortest_paths};
 #[cfg(feature = "closest-point")]
 pub use closest::{Closest, ClosestPoint};
 pub use error::Error;
-pub use exact::{DistanceField, Sweep};
+pub use exact::{DistanceField, Globally, Sweep};
 pub use finder::{PathFinder, Start};
 pub use loops::{DirectedLoop, GeodesicLoop, LoopFinder};
 #[cfg(feature = "triangulate")]

@@ -265,13 +265,14 @@ pub(crate) fn frame(mesh: &Mesh, face: u32) -> [DVec2; 3] {
     [DVec2::ZERO, DVec2::new(base, 0.0), DVec2::new(along, away)]
 }
 
-fn direction_in_face(mesh: &Mesh, h: u32) -> DVec2 {
+/// The direction of a half-edge in the frame of its face.
+pub(crate) fn direction_in_face(mesh: &Mesh, h: u32) -> DVec2 {
     let corners = frame(mesh, face_of(h));
     (corners[(next(h) % 3) as usize] - corners[(h % 3) as usize]).normalize()
 }
 
 /// The vector from one point of a face to another, in its frame.
-fn step_in_face(
+pub(crate) fn step_in_face(
     mesh: &Mesh,
     face: u32,
     from: SurfacePoint,

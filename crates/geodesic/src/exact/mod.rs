@@ -34,4 +34,5 @@ mod window;
 
 pub use field::DistanceField;
 pub use sweep::Sweep;
+pub use trace::Globally;
 pub(crate) use trace::join_around_vertices;

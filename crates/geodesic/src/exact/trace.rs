@@ -26,23 +26,54 @@ impl<'m> Sweep<'m> {
         DistanceField { sweep: self }.path_to(to, &mut finder)
     }
 
-    /// Whether a path is as short as any between its ends: its length over the exact distance, 1 for a shortest path up to
-    /// rounding. Everything needed to prove a locally shortest path global, or to learn by how much it is not.
+    /// The shortest path between the ends of a path: that path itself with the proof that none is shorter, or a shorter one.
+    ///
+    /// ```
+    /// use geodesic::{PathFinder, Sweep, shapes};
+    /// let torus = shapes::torus(2.0, 0.7, 30, 14)?;
+    /// let local = PathFinder::new(&torus).shortest(0.into(), 200.into())?.clone();
+    /// let global = Sweep::new(&torus).shorten_globally(&local)?;
+    /// assert!(global.path.length() <= local.length());
+    /// println!("{} by {}", global.was_shortest, local.length() / global.distance - 1.0);
+    /// # Ok::<(), geodesic::Error>(())
+    /// ```
     ///
     /// # Errors
     ///
-    /// As for [`Sweep::distance`].
-    pub fn ratio_to_shortest(&mut self, path: &GeodesicPath) -> Result<f64, Error> {
+    /// As for [`Sweep::shortest_path`]; [`Error::SegmentLeavesFace`] for a path without points.
+    pub fn shorten_globally(&mut self, path: &GeodesicPath) -> Result<Globally, Error> {
         let (Some(&from), Some(&to)) = (path.points().first(), path.points().last()) else {
-            return Ok(1.0);
+            return Err(Error::SegmentLeavesFace { position: 0 });
         };
         let distance = self.distance(from, to)?;
-        Ok(if distance == 0.0 {
-            1.0
+        let was_shortest = path.length() <= distance * (1.0 + EQUAL_LENGTHS);
+        let path = if was_shortest {
+            path.clone()
         } else {
-            path.length() / distance
+            let mut finder = PathFinder::new(self.mesh());
+            DistanceField { sweep: self }.path_to(to, &mut finder)?
+        };
+        Ok(Globally {
+            path,
+            distance,
+            was_shortest,
         })
     }
+}
+
+/// A path is a shortest one if it is longer than the exact distance by no more than this share: the rounding of both.
+const EQUAL_LENGTHS: f64 = 1e-12;
+
+/// What [`Sweep::shorten_globally`] found.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Globally {
+    /// A globally shortest path.
+    pub path: GeodesicPath,
+    /// The exact distance of its ends.
+    pub distance: f64,
+    /// Whether it is the path that was given, proved shortest.
+    pub was_shortest: bool,
 }
 
 impl DistanceField<'_, '_> {
