@@ -3,8 +3,8 @@
 
 use glam::DVec2;
 
-use crate::arc_spline::Segment;
 use crate::fit::{Attempt, End, Fit, Fitter, Interval, regular, tagged};
+use crate::piece::Segment;
 use crate::plane_curve::merge;
 use crate::{
     ArcSpline, Break, BreakKind, Error, Joint, Piece, PlacedArc, PlaneCurve, Side, TQuartic,
@@ -342,10 +342,12 @@ impl<'a, C: PlaneCurve + ?Sized> Builder<'a, C> {
         } else {
             2.0
         };
-        let (at_start, at_end) = (
-            !regular(interval.start.curvature),
-            !regular(interval.end.curvature),
-        );
+        // Arcs of class 9 may end in one inflection.
+        let graded = |end: &End| match self.how.arcs {
+            Arcs::Class3 => !regular(end.curvature),
+            Arcs::Class9 => end.curvature.is_infinite(),
+        };
+        let (at_start, at_end) = (graded(&interval.start), graded(&interval.end));
         let shares: &[f64] = match (at_start, at_end) {
             (true, true) => &[GRADING, 1.0 - GRADING],
             (true, false) => &[GRADING],
@@ -397,18 +399,12 @@ impl<'a, C: PlaneCurve + ?Sized> Builder<'a, C> {
             Fit::Pair([first, second]) => {
                 let joint = self.join(span, &start, true)?;
                 self.push(
-                    Piece::Arc(PlacedArc {
-                        origin: start.point,
-                        local: first,
-                    }),
+                    Piece::Arc(PlacedArc::new(start.point, first)),
                     source,
                     joint,
                 );
                 self.push(
-                    Piece::Arc(PlacedArc {
-                        origin: start.point,
-                        local: second,
-                    }),
+                    Piece::Arc(PlacedArc::new(start.point, second)),
                     source,
                     Joint::G2,
                 );
@@ -417,25 +413,20 @@ impl<'a, C: PlaneCurve + ?Sized> Builder<'a, C> {
             Fit::Wide(local) => {
                 let joint = self.join(span, &start, true)?;
                 self.push(
-                    Piece::Wide(PlacedArc {
-                        origin: start.point,
-                        local,
-                    }),
+                    Piece::Wide(PlacedArc::new(start.point, local)),
                     source,
                     joint,
                 );
                 self.last = Some((end, true));
             }
+            Fit::Inflected(arc) => {
+                let joint = self.join(span, &start, true)?;
+                self.push(Piece::Inflected(arc), source, joint);
+                self.last = Some((end, true));
+            }
             Fit::Single(arc) => {
                 let joint = self.join(span, &start, attempt.matched)?;
-                self.push(
-                    Piece::Arc(PlacedArc {
-                        origin: start.point,
-                        local: arc,
-                    }),
-                    source,
-                    joint,
-                );
+                self.push(Piece::Arc(PlacedArc::new(start.point, arc)), source, joint);
                 self.last = Some((end, attempt.matched));
             }
             Fit::Bridge if (end.point - start.point).length() > 4.0 * self.rounding => {
@@ -513,10 +504,7 @@ impl<'a, C: PlaneCurve + ?Sized> Builder<'a, C> {
             let fan = TQuartic::point_fan(DVec2::ZERO, normal, next)?;
             let joint = if k == 1 { Joint::G1 } else { Joint::G2 };
             self.push(
-                Piece::Arc(PlacedArc {
-                    origin: start.point,
-                    local: fan,
-                }),
+                Piece::Arc(PlacedArc::new(start.point, fan)),
                 [parameter; 2],
                 joint,
             );

@@ -258,21 +258,27 @@ impl SupportJet {
         }
     }
 
-    /// The first three support coefficients of an arc of class `class` that starts with this jet, where unit spinors
-    /// `h` apart carry the normals; `half_turning` is the sine and cosine of h, which may be negative.
+    /// The first three support coefficients of an arc of class `class` that starts with this jet; see
+    /// [`SupportJet::numerator`].
     pub(crate) fn coefficients(&self, half_turning: (f64, f64), class: usize) -> [f64; 3] {
+        let [value, first, second] = self.numerator(half_turning);
+        let m = class as f64;
+        let next = value + first / m;
+        [value, next, second / (m * (m - 1.0)) + 2.0 * next - value]
+    }
+
+    /// The numerator `g = p |w|^2` of the support and its first two derivatives by the parameter of an arc that starts
+    /// with this jet, where unit spinors h apart carry the normals; `half_turning` is the sine and cosine of h, which may
+    /// be negative.
+    pub(crate) fn numerator(&self, half_turning: (f64, f64)) -> [f64; 3] {
         let (sine, cosine) = half_turning;
         let slope = 2.0 * sine * self.slope;
         let bend = 4.0 * sine * sine * self.bend - 4.0 * sine * (cosine - 1.0) * self.slope;
         let (q1, q2) = (2.0 * (cosine - 1.0), 4.0 * (1.0 - cosine));
-        let first = slope + self.support * q1;
-        let second = bend + 2.0 * slope * q1 + self.support * q2;
-        let m = class as f64;
-        let g1 = self.support + first / m;
         [
             self.support,
-            g1,
-            second / (m * (m - 1.0)) + 2.0 * g1 - self.support,
+            slope + self.support * q1,
+            bend + 2.0 * slope * q1 + self.support * q2,
         ]
     }
 }

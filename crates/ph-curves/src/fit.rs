@@ -5,8 +5,8 @@ use glam::DVec2;
 use crate::curvature_element::EQUAL_RADII;
 use crate::plane_curve::curvature;
 use crate::{
-    Approximation, Arcs, BreakKind, CurvatureElement, Error, G1Ends, G2Pair, Joint, LineElement,
-    PhArc, PlaneCurve, Side, SupportJet, TQuartic,
+    Approximation, Arcs, BreakKind, CurvatureElement, Error, G1Ends, G2Pair, InflectedArc, Joint,
+    LineElement, PhArc, PlaneCurve, Side, TQuartic,
 };
 
 /// Cosine of the largest turning of one attempt, somewhat below the half turn at which arcs end to exist.
@@ -23,9 +23,8 @@ const SHARP: f64 = 1e-6;
 const SAMPLES: usize = 6;
 /// The true error exceeds the sampled one by a little; measured up to 1.15 on a thousand random splines.
 const PEAK: f64 = 1.16;
-/// The same where arcs of class 9 are wanted: their error has more peaks, and parts are not cut at vertices. The order
-/// makes the factor cheap.
-const WIDE_PEAK: f64 = 2.0;
+/// The same where arcs of class 9 are wanted: parts are not cut at vertices.
+const UNCUT_PEAK: f64 = 2.0;
 
 /// A first derivative below this share of the second is the rounding of one that vanishes.
 const VANISHING: f64 = 1e-11;
@@ -107,6 +106,8 @@ pub(crate) enum Fit {
     Single(TQuartic),
     /// One arc of class 9 with the curve's curvatures at both ends.
     Wide(PhArc<10>),
+    /// The same with an inflection at one end; about the origin of the plane.
+    Inflected(InflectedArc),
     /// A corner, a segment and a corner.
     Bridge,
 }
@@ -133,14 +134,17 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         let sine = start.normal.perp_dot(end.normal);
         if sine.abs() > LEAST_TURNING && cosine > MOST_TURNING_COSINE {
             let resolved = (FLAT.recip() / chord)..(SHARP.recip() / chord);
-            let elements = sine.abs() > LEAST_G2_TURNING
-                && [start, end]
-                    .iter()
-                    .all(|e| resolved.contains(&e.curvature.abs()))
-                && start.curvature * end.curvature > 0.0;
+            let curvatures = [start.curvature, end.curvature];
+            let [curved_start, curved_end] = curvatures.map(|c| resolved.contains(&c.abs()));
+            let elements = curved_start && curved_end && start.curvature * end.curvature > 0.0;
+            // One end may be an inflection, if the other is curved.
+            let inflected = (curved_start || curved_end) && start.curvature * end.curvature == 0.0;
+            let turns = sine.abs() > LEAST_G2_TURNING;
             let curved = match self.how.arcs {
-                Arcs::Class3 if elements && self.how.continuity == Joint::G2 => self.pair(interval),
-                Arcs::Class9 if elements => self.wide(interval),
+                Arcs::Class3 if turns && elements && self.how.continuity == Joint::G2 => {
+                    self.pair(interval)
+                }
+                Arcs::Class9 if turns && (elements || inflected) => self.wide(interval),
                 _ => None,
             };
             if let Some(attempt) = curved.or_else(|| self.single(interval, chord)) {
@@ -198,72 +202,6 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         })
     }
 
-    /// One arc of class 9: six support coefficients from the elements at the ends, four from tangents in between.
-    fn wide(&self, interval: &Interval) -> Option<Attempt> {
-        let Interval { start, end, .. } = interval;
-        let jet = |e: &End, sense: f64| {
-            let jet = SupportJet::of_element(e.point - start.point, e.normal, e.curvature.recip());
-            SupportJet {
-                slope: sense * jet.slope,
-                ..jet
-            }
-        };
-        let ends = G1Ends::between(
-            LineElement::from_unit(DVec2::ZERO, start.normal),
-            LineElement::from_unit(DVec2::ZERO, end.normal),
-        );
-        let (cosine, sine) = ends.half_turning();
-        let first = jet(start, 1.0).coefficients((sine, cosine), 9);
-        let last = jet(end, -1.0).coefficients((sine, cosine), 9);
-        let mut g = [
-            first[0], first[1], first[2], 0.0, 0.0, 0.0, 0.0, last[2], last[1], last[0],
-        ];
-
-        // With x = t/(1-t) the remainder over t^3 (1-t)^6 is a cubic in x: Newton's divided differences.
-        let frame = Probe {
-            w0: ends.unit_spinors().0,
-            w1: ends.unit_spinors().1,
-            start: start.normal,
-            g,
-        };
-        let (mut x, mut c) = ([0.0; 4], [0.0; 4]);
-        for (k, share) in WIDE_NODES.into_iter().enumerate() {
-            let (normal, support) = self.tangent(interval, share);
-            let (s, t) = frame.parameter(normal)?;
-            let weight = (frame.w0 * s + frame.w1 * t).length_squared();
-            let cube = s * s * s;
-            x[k] = t / s;
-            c[k] = (support * weight - bernstein_9(&g, s, t)) / (t * t * t * cube * cube);
-        }
-        for level in 1..4 {
-            for k in (level..4).rev() {
-                c[k] = (c[k] - c[k - 1]) / (x[k] - x[k - level]);
-            }
-        }
-        let mut cubic = [c[3], 0.0, 0.0, 0.0];
-        for k in (0..3).rev() {
-            for i in (1..4).rev() {
-                cubic[i] = cubic[i - 1] - x[k] * cubic[i];
-            }
-            cubic[0] = c[k] - x[k] * cubic[0];
-        }
-        for (i, binomial) in [84.0, 126.0, 126.0, 84.0].into_iter().enumerate() {
-            g[3 + i] = cubic[i] / binomial;
-        }
-        let arc = PhArc::from_parts(frame.w0, frame.w1, g);
-        let probe = Probe { g, ..frame };
-        let error =
-            self.largest_difference(interval, &WIDE_SHARES, |normal| probe.support_9(normal))?;
-        // Bernstein coefficients of one sign certify that the arc has no cusp.
-        let radius = arc.radius_polynomial();
-        let certified = radius.iter().all(|r| r * start.curvature > 0.0);
-        certified.then_some(Attempt {
-            fit: Fit::Wide(arc),
-            error,
-            matched: true,
-        })
-    }
-
     /// A corner, a segment and a corner: right where all of the interval is closer to its chord than the tolerance.
     fn bridge(&self, interval: &Interval, chord: f64) -> Option<Attempt> {
         let Interval {
@@ -293,10 +231,21 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
     /// Unit normal and support about the start point of the interval, at a share of its parameters.
     #[inline]
     fn tangent(&self, interval: &Interval, share: f64) -> (DVec2, f64) {
+        self.tangent_about(interval, share, interval.start.point)
+    }
+
+    /// Unit normal and support about another origin.
+    #[inline]
+    pub(crate) fn tangent_about(
+        &self,
+        interval: &Interval,
+        share: f64,
+        origin: DVec2,
+    ) -> (DVec2, f64) {
         let (t0, t1) = (interval.start.t, interval.end.t);
         let [point, first, _] = self.curve.jet(interval.span, t0 + (t1 - t0) * share);
         let normal = -first.normalize_or_zero().perp();
-        (normal, normal.dot(point - interval.start.point))
+        (normal, normal.dot(point - origin))
     }
 
     /// Largest difference of supports at inner samples; none if a normal of the curve does not occur on the arcs.
@@ -315,7 +264,7 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         Some(if self.how.arcs == Arcs::Class3 {
             PEAK * error
         } else {
-            WIDE_PEAK * error
+            UNCUT_PEAK * error
         })
     }
 }
@@ -329,20 +278,15 @@ const EVEN_SHARES: [f64; SAMPLES] = [
     5.0 / 7.0,
     6.0 / 7.0,
 ];
-/// Zeros of the ultraspherical polynomial of degree 4 for the weight `t^3 (1-t)^3`, the interpolation nodes of class 9.
-const WIDE_NODES: [f64; 4] = [0.1797, 0.387, 0.613, 0.8203];
-/// Shares between these nodes, where the error peaks.
-const WIDE_SHARES: [f64; 5] = [0.1, 0.28, 0.5, 0.72, 0.9];
-
-/// An arc prepared for many evaluations of its support by the normal.
-struct Probe<const N: usize> {
+/// An arc of class 3 prepared for many evaluations of its support by the normal.
+struct Probe {
     w0: DVec2,
     w1: DVec2,
     start: DVec2,
-    g: [f64; N],
+    g: [f64; 4],
 }
 
-impl<const N: usize> Probe<N> {
+impl Probe {
     /// Barycentric parameter `(1 - t, t)` of a unit normal; none (but for a slack of rounding) outside of the arc.
     #[inline]
     fn parameter(&self, normal: DVec2) -> Option<(f64, f64)> {
@@ -353,9 +297,7 @@ impl<const N: usize> Probe<N> {
         let (t, s) = (a * scale, b * scale);
         (t >= -1e-9 && s >= -1e-9).then_some((s, t))
     }
-}
 
-impl Probe<4> {
     fn new(arc: &TQuartic) -> Self {
         let (w0, w1) = arc.spinors();
         Self {
@@ -373,30 +315,4 @@ impl Probe<4> {
         let value = s * s * (s * g0 + 3.0 * t * g1) + t * t * (3.0 * s * g2 + t * g3);
         Some(value / (self.w0 * s + self.w1 * t).length_squared())
     }
-}
-
-impl Probe<10> {
-    #[inline]
-    fn support_9(&self, normal: DVec2) -> Option<f64> {
-        let (s, t) = self.parameter(normal)?;
-        Some(bernstein_9(&self.g, s, t) / (self.w0 * s + self.w1 * t).length_squared())
-    }
-}
-
-/// Value of a Bernstein polynomial of degree 9 at `t = 1 - s`, as two halves of Horner's scheme.
-#[inline]
-fn bernstein_9(g: &[f64; 10], s: f64, t: f64) -> f64 {
-    let (s2, t2) = (s * s, t * t);
-    let (s4, t4) = (s2 * s2, t2 * t2);
-    let low = s4 * s * g[0]
-        + 9.0 * s4 * t * g[1]
-        + 36.0 * s2 * s * t2 * g[2]
-        + 84.0 * s2 * t2 * t * g[3]
-        + 126.0 * s * t4 * g[4];
-    let high = 126.0 * s4 * t * g[5]
-        + 84.0 * s2 * s * t2 * g[6]
-        + 36.0 * s2 * t2 * t * g[7]
-        + 9.0 * s * t4 * g[8]
-        + t4 * t * g[9];
-    s4 * low + t4 * high
 }

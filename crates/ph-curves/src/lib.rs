@@ -88,6 +88,7 @@ mod curvature_element;
 mod dual;
 mod error;
 mod fit;
+mod inflected;
 mod interpolator;
 #[cfg(feature = "kurbo")]
 mod kurbo_path;
@@ -95,6 +96,7 @@ mod line;
 mod minkowski;
 mod ph_arc;
 mod ph_spline;
+mod piece;
 mod plane_curve;
 mod polynomial_ph;
 mod pottmann;
@@ -105,10 +107,11 @@ mod sampled;
 mod spatial;
 mod t_cubic;
 mod trim;
+mod wide;
 
 pub use approximate::{Approximated, Approximation, Arcs, Breakpoints, approximate, breakpoints};
 pub use arc_length::ArcLength;
-pub use arc_spline::{ArcSpline, Joint, Piece, PlacedArc, Segment};
+pub use arc_spline::{ArcSpline, Joint};
 pub use cam::{Antisymmetric, Cam, HarmonicLift, Lift};
 pub use class3::{G1Ends, LineElement};
 pub use constant_width::{
@@ -118,6 +121,7 @@ pub use curvature_element::{CurvatureElement, EvoluteTriangle, G2Pair, similarit
 pub use dual::DualCurve;
 pub use error::Error;
 pub use glam; // its types appear in our signatures
+pub use inflected::InflectedArc;
 pub use interpolator::{FeedInterpolator, FeedPoint, FeedRate};
 pub use line::Line;
 pub use minkowski::{
@@ -126,6 +130,7 @@ pub use minkowski::{
 };
 pub use ph_arc::{Contact, PhArc, TQuartic};
 pub use ph_spline::{PhSpline, SplineEnds};
+pub use piece::{Piece, PlacedArc, Segment};
 pub use plane_curve::{Break, BreakKind, CubicPath, PlaneCurve, Side};
 pub use polynomial_ph::PolynomialPh;
 pub use pottmann::{PottmannForm, TQuarticCoefficients};

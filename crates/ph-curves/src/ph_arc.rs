@@ -199,9 +199,13 @@ impl<const N: usize> PhArc<N> {
     /// Derivative of the point by `t`: `R (d psi/dt) i N`.
     #[must_use]
     pub fn velocity(&self, t: f64) -> DVec2 {
-        let w = self.spinor(t);
-        let length = w.length_squared();
-        square(w).perp() * (self.radius(t) * 2.0 * self.kappa() / (length * length))
+        self.normal(t).perp() * (self.radius(t) * self.turning_rate(t))
+    }
+
+    /// Derivative of the normal's angle by `t`: `2 kappa / |w|^2`.
+    #[must_use]
+    pub fn turning_rate(&self, t: f64) -> f64 {
+        2.0 * self.kappa() / self.spinor(t).length_squared()
     }
 
     /// Signed radius of curvature at `t`.

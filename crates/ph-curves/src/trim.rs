@@ -258,11 +258,8 @@ impl ArcSpline {
         let quarter = DVec2::new(0.0, distance.signum());
         let cap = |point: DVec2, normals: [DVec2; 3]| -> Result<[Piece; 2], Error> {
             let fan = |a: DVec2, b: DVec2| -> Result<Piece, Error> {
-                let local = TQuartic::point_fan(DVec2::ZERO, a, b)?.offset(distance);
-                Ok(Piece::Arc(PlacedArc {
-                    origin: point,
-                    local,
-                }))
+                let corner = TQuartic::point_fan(DVec2::ZERO, a, b)?;
+                Ok(Piece::Arc(PlacedArc::new(point, corner)).offset(distance))
             };
             Ok([fan(normals[0], normals[1])?, fan(normals[1], normals[2])?])
         };

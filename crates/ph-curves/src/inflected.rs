@@ -1,0 +1,452 @@
+//! PH arcs that begin in an inflection: the normal stands still there, and the curvature is zero and continuous.
+
+use bezier_mass::bernstein;
+use glam::{DVec2, DVec3};
+
+use crate::complex::square;
+use crate::quadrature::integrate;
+use crate::{Error, arc_length::bernstein_from_powers};
+
+/// A rational PH arc of class 9 whose curvature vanishes at its start: the arc `w = (1 - τ) w0 + τ w1` of [`PhArc`](crate::PhArc) run
+/// through by `t = √τ`, about the inflection as origin.
+///
+/// At an inflection the normal turns by `ψ ~ s²` and the support is `p ~ s³`, which is no polynomial in the normal's
+/// parameter `τ ~ s²`: arcs of the plain form have no inflection. In `t` both are polynomials, `p = g/|w|²` with
+/// `g = t³ r(t)`; that `g` has no linear and no quadratic term puts the point of `t = 0` into the origin and makes it regular.
+///
+/// | quantity | formula, with `q = abs(w)^2`, `kappa = det(w0, w1)`, dots for derivatives by `τ` |
+/// |---|---|
+/// | point | `i (ġ w - 2 g ẇ) / (2 kappa conj(w))`, with `ġ = t (3 r + t r') / 2` |
+/// | radius of curvature | `(q g̈ - q̇ ġ + q̈ g) / (4 kappa^2)`, `1/t` times a polynomial of degree 10 |
+/// | offset by d | `g + d q` |
+///
+/// The piece is the part of this arc between two parameters, run through in either sense.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct InflectedArc {
+    origin: DVec2,
+    w0: DVec2,
+    w1: DVec2,
+    /// Bernstein coefficients of r.
+    r: [f64; 7],
+    distance: f64,
+    range: [f64; 2],
+}
+
+/// Degree of the point form: `g` has degree 9, and the numerator `w (ġ w - 2 g ẇ)` two more.
+const POINT_DEGREE: usize = 11;
+
+impl InflectedArc {
+    /// The arc with these spinors and support polynomial `t³ r(t)` about the inflection at `origin`.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`]; [`Error::ZeroDirection`] if a spinor is zero; [`Error::NoTurning`] if they are parallel;
+    /// [`Error::TurningTooLarge`] if the angle between them is a right angle or more.
+    pub fn new(origin: DVec2, [w0, w1]: [DVec2; 2], r: [f64; 7]) -> Result<Self, Error> {
+        // The checks are those of a plain arc with these spinors.
+        crate::PhArc::new(w0, w1, r)?;
+        if !origin.is_finite() {
+            return Err(Error::NonFinite {
+                what: "an inflection",
+            });
+        }
+        Ok(Self::from_parts(origin, [w0, w1], r))
+    }
+
+    /// The arc without the checks, for values known to satisfy them.
+    pub(crate) const fn from_parts(origin: DVec2, [w0, w1]: [DVec2; 2], r: [f64; 7]) -> Self {
+        Self {
+            origin,
+            w0,
+            w1,
+            r,
+            distance: 0.0,
+            range: [0.0, 1.0],
+        }
+    }
+
+    /// The arc's own parameter, 0 at the inflection.
+    fn own(&self, t: f64) -> f64 {
+        let [from, to] = self.range;
+        if t == 1.0 { to } else { from + (to - from) * t }
+    }
+
+    fn kappa(&self) -> f64 {
+        self.w0.perp_dot(self.w1)
+    }
+
+    fn spinor(&self, own: f64) -> DVec2 {
+        self.w0 + (self.w1 - self.w0) * (own * own)
+    }
+
+    /// Unit normal at `t`.
+    #[must_use]
+    pub fn normal(&self, t: f64) -> DVec2 {
+        let w = self.spinor(self.own(t));
+        square(w) / w.length_squared()
+    }
+
+    /// The point at `t` in `[0, 1]`.
+    #[must_use]
+    pub fn point(&self, t: f64) -> DVec2 {
+        let t = self.own(t);
+        let [r, slope, _] = bernstein::jet(&self.r, t);
+        let w = self.spinor(t);
+        let (g, dg) = (t * t * t * r, 0.5 * t * (3.0 * r + t * slope));
+        let numerator = dg * w - 2.0 * g * (self.w1 - self.w0);
+        let length = w.length_squared();
+        let local = w.rotate(numerator).perp() / (2.0 * self.kappa() * length);
+        self.origin + local + square(w) * (self.distance / length)
+    }
+
+    /// `t` times the radius of curvature by powers of `t`; its sign is that of the radius.
+    fn scaled_radius(&self) -> [f64; 11] {
+        let powers = crate::arc_length::power_coefficients(&self.r);
+        let dw = self.w1 - self.w0;
+        let q = [
+            self.w0.length_squared(),
+            2.0 * self.w0.dot(dw),
+            dw.length_squared(),
+        ];
+        let scale = 0.25 / (self.kappa() * self.kappa());
+        let mut sum = [0.0; 11];
+        for (k, c) in powers.iter().enumerate() {
+            // The term t^n of g is τ^s; q g̈ - q̇ ġ + q̈ g, term by term.
+            let s = 0.5 * (k as f64 + 3.0);
+            let bend = s * (s - 1.0);
+            for (i, factor) in [bend, bend - s, bend - 2.0 * s + 2.0]
+                .into_iter()
+                .enumerate()
+            {
+                sum[k + 2 * i] += scale * c * q[i] * factor;
+            }
+        }
+        sum[1] += self.distance;
+        sum
+    }
+
+    /// Whether no cusp lies on the whole arc and its radius of curvature has the given sign, certified by the signs of
+    /// Bernstein coefficients.
+    pub(crate) fn is_regular(&self, sign: f64) -> bool {
+        bernstein_from_powers(&self.scaled_radius())
+            .iter()
+            .all(|c| c * sign > 0.0)
+    }
+
+    /// `t` times the radius of curvature, at one parameter.
+    fn radius_times_parameter(&self, own: f64) -> f64 {
+        let [r, slope, bend] = bernstein::jet(&self.r, own);
+        let (w, dw) = (self.spinor(own), self.w1 - self.w0);
+        let square = own * own;
+        // t g, t ġ and t g̈.
+        let g = square * square * r;
+        let dg = 0.5 * square * (3.0 * r + own * slope);
+        let ddg = 0.25 * (3.0 * r + own * (5.0 * slope + own * bend));
+        let (q, dq, ddq) = (
+            w.length_squared(),
+            2.0 * w.dot(dw),
+            2.0 * dw.length_squared(),
+        );
+        let kappa = self.kappa();
+        (q * ddg - dq * dg + ddq * g) / (4.0 * kappa * kappa) + self.distance * own
+    }
+
+    /// Signed radius of curvature, infinite at the inflection.
+    #[must_use]
+    pub fn radius(&self, t: f64) -> f64 {
+        let own = self.own(t);
+        self.radius_times_parameter(own) / own
+    }
+
+    /// Derivative of the point by `t`.
+    #[must_use]
+    pub fn velocity(&self, t: f64) -> DVec2 {
+        let own = self.own(t);
+        let w = self.spinor(own);
+        let length = w.length_squared();
+        // R dψ/dτ dτ/dt with dψ/dτ = 2 kappa / q.
+        let speed = self.radius_times_parameter(own) * 4.0 * self.kappa() / length;
+        square(w).perp() * (speed * (self.range[1] - self.range[0]) / length)
+    }
+
+    /// Signed turning angle of the normal in the sense of travel.
+    #[must_use]
+    pub fn turning(&self) -> f64 {
+        let [a, b] = self.range.map(|own| self.spinor(own));
+        2.0 * a.perp_dot(b).atan2(a.dot(b))
+    }
+
+    /// The parallel arc at signed distance `distance` along the normal; exact. Its start is the inflection's.
+    #[must_use]
+    pub fn offset(&self, distance: f64) -> Self {
+        Self {
+            distance: self.distance + distance,
+            ..*self
+        }
+    }
+
+    /// The part between two parameters `0 <= from < to <= 1`.
+    ///
+    /// # Errors
+    /// [`Error::OutsideDomain`] otherwise.
+    pub fn part(&self, from: f64, to: f64) -> Result<Self, Error> {
+        if !(from >= 0.0 && from < to && to <= 1.0) {
+            return Err(Error::OutsideDomain {
+                value: from,
+                start: 0.0,
+                end: to.min(1.0),
+            });
+        }
+        Ok(Self {
+            range: [self.own(from), self.own(to)],
+            ..*self
+        })
+    }
+
+    /// The same arc run backwards; the normals keep their directions.
+    #[must_use]
+    pub fn reverse(&self) -> Self {
+        Self {
+            range: [self.range[1], self.range[0]],
+            ..*self
+        }
+    }
+
+    /// The same points with opposite normals: supports and radii change sign.
+    #[must_use]
+    pub fn flip(&self) -> Self {
+        Self {
+            w0: self.w0.perp(),
+            w1: self.w1.perp(),
+            r: self.r.map(|c| -c),
+            distance: -self.distance,
+            ..*self
+        }
+    }
+
+    /// Parameters in `[0, 1]` where the radius of curvature vanishes, in increasing order, isolated and certified.
+    #[must_use]
+    pub fn cusps(&self) -> Vec<f64> {
+        self.roots(bernstein_from_powers(&self.scaled_radius()))
+    }
+
+    /// Parameters in `[0, 1]` of the points whose normal passes through `point`, and perhaps of the inflection.
+    #[must_use]
+    pub fn feet(&self, point: DVec2) -> Vec<f64> {
+        let (support, length) = (self.support_coefficients(), self.length_coefficients());
+        let toward = bernstein::elevate_to(&self.normal_coefficients(), 9);
+        // The tangent at t is h/q away, h = <n, X> - g.
+        let h: Vec<f64> = toward
+            .iter()
+            .zip(support)
+            .map(|(n, g)| n.dot(point - self.origin) - g)
+            .collect();
+        let first = bernstein::product(&length, &bernstein::derivative(&h));
+        let second = bernstein::product(&bernstein::derivative(&length), &h);
+        self.roots(first.iter().zip(&second).map(|(a, b)| a - b).collect())
+    }
+
+    /// Roots of Bernstein coefficients over the whole arc, as parameters of the piece.
+    fn roots(&self, coefficients: Vec<f64>) -> Vec<f64> {
+        let Ok(roots) = variation::Solver::new()
+            .without_exact()
+            .roots(&coefficients)
+            .map(|roots| roots.iter().map(|root| root.value()).collect::<Vec<_>>())
+        else {
+            return Vec::new();
+        };
+        let [from, to] = self.range;
+        let mut shares: Vec<f64> = roots
+            .iter()
+            .map(|own| (own - from) / (to - from))
+            .filter(|share| (0.0..=1.0).contains(share))
+            .collect();
+        shares.sort_by(f64::total_cmp);
+        shares
+    }
+
+    /// Arc length; parts on both sides of a cusp count positively. By Gauss's rule, to rounding.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        let rate = |own: f64| {
+            4.0 * self.kappa() * self.radius_times_parameter(own)
+                / self.spinor(own).length_squared()
+        };
+        let mut begin = 0.0;
+        self.cusps()
+            .into_iter()
+            .chain([1.0])
+            .map(|end| {
+                let (a, b) = (self.own(begin), self.own(end));
+                begin = end;
+                integrate(a, b, GAUSS_PIECES, rate).abs()
+            })
+            .sum()
+    }
+
+    /// Bernstein coefficients of `g = t³ r`, of degree 9.
+    fn support_coefficients(&self) -> [f64; 10] {
+        let mut g = [0.0; 10];
+        for (k, r) in self.r.iter().enumerate() {
+            g[k + 3] = r * bernstein::binomial(6, k) / bernstein::binomial(9, k + 3);
+        }
+        g
+    }
+
+    /// Bernstein coefficients of `|w|²`, of degree 4 in t.
+    fn length_coefficients(&self) -> Vec<f64> {
+        let [a, b] = self.spinor_coefficients();
+        bernstein::product_with(&[a, a, b], &[a, a, b], |a, b| a.dot(*b))
+    }
+
+    /// Bernstein coefficients of `w²`, of degree 4 in t.
+    fn normal_coefficients(&self) -> Vec<DVec2> {
+        let [a, b] = self.spinor_coefficients();
+        bernstein::product_with(&[a, a, b], &[a, a, b], |a, b| a.rotate(*b))
+    }
+
+    /// First and last Bernstein coefficient of w as a quadratic in t; the middle one is the first again.
+    const fn spinor_coefficients(&self) -> [DVec2; 2] {
+        [self.w0, self.w1]
+    }
+
+    /// Homogeneous Bernstein coefficients `(x0, x1, x2)` of the point form, of degree 11, with positive weights.
+    #[must_use]
+    pub fn homogeneous(&self) -> Vec<DVec3> {
+        let w = [self.w0, self.w0, self.w1];
+        let dw = self.w1 - self.w0;
+        // ġ = t (3 r + t r') / 2 by Bernstein coefficients: t² r' and t r of degrees 7 and 7.
+        let t_times = |c: &[f64]| bernstein::product(&[0.0, 1.0], c);
+        let slope = t_times(&t_times(&bernstein::derivative(&self.r)));
+        let rate: Vec<f64> = t_times(&self.r)
+            .iter()
+            .zip(&slope)
+            .map(|(r, s)| 0.5 * (3.0 * r + s))
+            .collect();
+        let inner: Vec<DVec2> = bernstein::product_with(&rate, &w, |g, w| *w * *g)
+            .iter()
+            .zip(self.support_coefficients())
+            .map(|(a, g)| *a - 2.0 * g * dw)
+            .collect();
+        let numerator = bernstein::product_with(&w, &inner, |w, z| w.rotate(*z).perp());
+        let weights = bernstein::elevate_to(&self.length_coefficients(), POINT_DEGREE);
+        let normals = bernstein::elevate_to(&self.normal_coefficients(), POINT_DEGREE);
+        let (scale, sign) = (2.0 * self.kappa(), self.kappa().signum());
+        let whole: Vec<DVec3> = numerator
+            .iter()
+            .zip(weights.iter().zip(&normals))
+            .map(|(x, (q, n))| {
+                let x = *x + scale * (*q * self.origin + self.distance * *n);
+                DVec3::new(scale * q, x.x, x.y) * sign
+            })
+            .collect();
+        let [from, to] = self.range;
+        let mut part = bernstein::restrict(&whole, from.min(to), from.max(to));
+        if from > to {
+            part.reverse();
+        }
+        part
+    }
+}
+
+/// Parts of Gauss's rule for the length: the poles of the integrand are at least 0.3 away, which makes it exact to rounding.
+const GAUSS_PIECES: usize = 4;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dual::rational_curve;
+
+    fn arcs() -> Vec<InflectedArc> {
+        let spinors = |turning: f64| {
+            [
+                DVec2::from_angle(0.3),
+                DVec2::from_angle(0.3 + 0.5 * turning),
+            ]
+        };
+        let origin = DVec2::new(3.0, -2.0);
+        let mut arcs = Vec::new();
+        for turning in [0.8_f64, -0.5] {
+            let r = [0.3, 0.32, 0.3, 0.35, 0.33, 0.4, 0.38].map(|c: f64| c * turning.signum());
+            let arc = InflectedArc::new(origin, spinors(turning), r).unwrap();
+            arcs.extend([
+                arc,
+                arc.offset(0.2),
+                arc.part(0.2, 0.9).unwrap().reverse(),
+                arc.flip(),
+            ]);
+            arcs.push(arc.reverse().offset(-0.1));
+        }
+        arcs
+    }
+
+    #[test]
+    fn points_move_along_tangents_with_the_speed_that_is_said() {
+        for arc in arcs() {
+            for t in [0.05, 0.3, 0.8] {
+                let step = 1e-6;
+                let chord = (arc.point(t + step) - arc.point(t - step)) / (2.0 * step);
+                assert!((chord - arc.velocity(t)).length() < 1e-8, "{arc:?} {t}");
+                assert!(arc.normal(t).dot(chord).abs() < 1e-8 * chord.length());
+                let turn = (arc.normal(t + step) - arc.normal(t - step)) / (2.0 * step);
+                // dN/dt = T dψ/dt and dC/dt = R T dψ/dt
+                assert!((turn * arc.radius(t) - chord).length() < 1e-6 * chord.length());
+            }
+        }
+    }
+
+    #[test]
+    fn the_start_is_an_inflection_and_a_regular_point() {
+        for arc in arcs().into_iter().filter(|arc| arc.range[0] == 0.0) {
+            assert!(arc.velocity(0.0).length() > 0.1);
+            assert!(arc.radius(1e-9).abs() > 1e6);
+            let inflection = arc.origin + arc.distance * arc.normal(0.0);
+            assert!((arc.point(0.0) - inflection).length() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn the_rational_form_is_the_arc() {
+        for arc in arcs() {
+            let curve = rational_curve(&arc.homogeneous()).unwrap();
+            assert!(arc.homogeneous().iter().all(|x| x.x > 0.0));
+            for t in [0.0, 0.2, 0.7, 1.0] {
+                assert!((curve.point(t).unwrap() - arc.point(t)).length() < 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn lengths_feet_and_cusps_are_those_of_the_points() {
+        for arc in arcs() {
+            let count = 20_000;
+            let at = |k: usize| arc.point(k as f64 / count as f64);
+            let polyline: f64 = (0..count).map(|k| (at(k + 1) - at(k)).length()).sum();
+            assert!((arc.length() - polyline).abs() < 1e-7 * polyline);
+            let foot = arc.point(0.6);
+            let beside = foot + 0.01 * arc.normal(0.6);
+            assert!(
+                arc.feet(beside)
+                    .iter()
+                    .any(|t| (arc.point(*t) - foot).length() < 1e-9)
+            );
+            assert!(arc.cusps().iter().all(|t| arc.radius(*t).abs() < 1e-9));
+            // Beyond the centre of curvature of its end the offset has a cusp where the radius is the distance.
+            let cusped = arc.offset(-arc.radius(0.7));
+            assert!(cusped.cusps().iter().any(|t| (t - 0.7).abs() < 1e-9));
+            let d = arc.offset(0.37);
+            assert!((d.point(0.4) - arc.point(0.4) - 0.37 * arc.normal(0.4)).length() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn impossible_arcs_are_refused() {
+        let (x, y) = (DVec2::X, DVec2::Y);
+        assert!(InflectedArc::new(DVec2::NAN, [x, x + y], [1.0; 7]).is_err());
+        assert!(InflectedArc::new(x, [x, x + y], [f64::NAN; 7]).is_err());
+        assert!(InflectedArc::new(x, [x, x], [1.0; 7]).is_err());
+        assert!(InflectedArc::new(x, [x, y], [1.0; 7]).is_err());
+        let arc = InflectedArc::new(x, [x, x + y], [1.0; 7]).unwrap();
+        assert!(arc.part(0.5, 0.5).is_err() && arc.part(f64::NAN, 1.0).is_err());
+    }
+}
