@@ -134,11 +134,6 @@ impl G1Ends {
         (self.cos_h, self.sin_h)
     }
 
-    /// Unit spinors of the end normals.
-    pub(crate) const fn unit_spinors(&self) -> (DVec2, DVec2) {
-        self.spinors
-    }
-
     /// Signed legs `(l0, l1)` of the tangent triangle: `P1 - P0 = l0 T0 + l1 T1`, `T = i N`.
     #[must_use]
     pub const fn legs(&self) -> (f64, f64) {

@@ -231,21 +231,10 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
     /// Unit normal and support about the start point of the interval, at a share of its parameters.
     #[inline]
     fn tangent(&self, interval: &Interval, share: f64) -> (DVec2, f64) {
-        self.tangent_about(interval, share, interval.start.point)
-    }
-
-    /// Unit normal and support about another origin.
-    #[inline]
-    pub(crate) fn tangent_about(
-        &self,
-        interval: &Interval,
-        share: f64,
-        origin: DVec2,
-    ) -> (DVec2, f64) {
         let (t0, t1) = (interval.start.t, interval.end.t);
         let [point, first, _] = self.curve.jet(interval.span, t0 + (t1 - t0) * share);
         let normal = -first.normalize_or_zero().perp();
-        (normal, normal.dot(point - origin))
+        (normal, normal.dot(point - interval.start.point))
     }
 
     /// Largest difference of supports at inner samples; none if a normal of the curve does not occur on the arcs.

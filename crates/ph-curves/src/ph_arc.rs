@@ -244,28 +244,20 @@ impl<const N: usize> PhArc<N> {
         let g = &self.g;
         // Bernstein products of q with g'', q' with g' and q'' with g; the binomial ratios of the
         // products cancel the factors m and m - 1 of the derivatives.
-        let second = |k: usize| g[k] - 2.0 * g[k + 1] + g[k + 2];
+        let mut radius = g.map(|c| 2.0 * ddq * c);
+        for k in 0..m {
+            let step = 2.0 * (g[k + 1] - g[k]);
+            radius[k] -= (m - k) as f64 * dq0 * step;
+            radius[k + 1] -= (k + 1) as f64 * dq1 * step;
+        }
+        for k in 0..m - 1 {
+            let second = g[k] - 2.0 * g[k + 1] + g[k + 2];
+            radius[k] += ((m - k) * (m - k - 1)) as f64 * q0 * second;
+            radius[k + 1] += (2 * (m - k - 1) * (k + 1)) as f64 * q1 * second;
+            radius[k + 2] += ((k + 2) * (k + 1)) as f64 * q2 * second;
+        }
         let scale = 1.0 / (4.0 * self.kappa() * self.kappa());
-        std::array::from_fn(|k| {
-            let (a, b) = ((m - k) as f64, k as f64);
-            let mut sum = 2.0 * ddq * g[k];
-            if k + 2 <= m {
-                sum += a * (a - 1.0) * q0 * second(k);
-            }
-            if k >= 1 && k < m {
-                sum += 2.0 * a * b * q1 * second(k - 1);
-            }
-            if k >= 2 {
-                sum += b * (b - 1.0) * q2 * second(k - 2);
-            }
-            if k < m {
-                sum -= 2.0 * a * dq0 * (g[k + 1] - g[k]);
-            }
-            if k >= 1 {
-                sum -= 2.0 * b * dq1 * (g[k] - g[k - 1]);
-            }
-            sum * scale
-        })
+        radius.map(|c| c * scale)
     }
 
     /// Signed radii at the two ends.

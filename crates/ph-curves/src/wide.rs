@@ -1,9 +1,10 @@
-//! Fits of class 9: curvature elements at both ends, four tangents in between, and inflections at an end.
+//! Fits of class up to 9: curvature elements at both ends, up to four tangents in between, and inflections at an end.
 
 use glam::DVec2;
 
+use crate::complex::{conj, sqrt};
 use crate::fit::{Attempt, End, Fit, Fitter, Interval};
-use crate::{G1Ends, InflectedArc, LineElement, PhArc, PlaneCurve, SupportJet};
+use crate::{InflectedArc, PhArc, PlaneCurve, SupportJet};
 
 /// Zeros of the ultraspherical polynomial of degree 4 for the weight `t^3 (1-t)^3`: the interpolation nodes.
 const NODES: [f64; 4] = [0.1797, 0.387, 0.613, 0.8203];
@@ -12,116 +13,152 @@ const PEAKS: [f64; 5] = [0.1, 0.28, 0.5, 0.72, 0.9];
 /// The true error exceeds that at the shares by a little: parts are not cut at vertices, where peaks move. The order makes
 /// the factor cheap.
 const PEAK: f64 = 2.0;
+/// Slack of rounding of a parameter outside of `[0, 1]`.
+const SLACK: f64 = 1e-9;
 /// Binomial coefficients of degree 9.
 const BINOMIALS: [f64; 10] = [1.0, 9.0, 36.0, 84.0, 126.0, 126.0, 84.0, 36.0, 9.0, 1.0];
 
 /// What the numerator of the support is a polynomial of: the parameter of the normals, or its root from an inflection on.
 struct Frame {
+    /// Unit spinors of the end normals.
     spinors: [DVec2; 2],
+    /// Sine and cosine of the angle between them.
+    half_turning: (f64, f64),
     start: DVec2,
+    origin: DVec2,
     inflected: bool,
 }
 
+/// A tangent of the curve in a frame.
+struct Sample {
+    /// Barycentric parameter `(1 - t, t)` of its normal.
+    s: f64,
+    t: f64,
+    /// The numerator `p |w|^2` of its support.
+    numerator: f64,
+}
+
 impl Frame {
-    /// Barycentric parameter `(1 - t, t)` of a unit normal and the length `|w|^2` there; none (but for a slack of
-    /// rounding) outside of the arc.
+    fn new(start: &End, end: &End) -> Self {
+        let turn = conj(start.normal).rotate(end.normal);
+        let cosine = (0.5 * (1.0 + turn.x)).sqrt();
+        let sine = 0.5 * turn.y / cosine;
+        let spinor = sqrt(start.normal);
+        Self {
+            spinors: [spinor, spinor.rotate(DVec2::new(cosine, sine))],
+            half_turning: (sine, cosine),
+            start: start.normal,
+            origin: start.point,
+            inflected: start.curvature == 0.0,
+        }
+    }
+
+    /// The tangent at a point with a velocity; none (but for a slack of rounding) if its normal lies outside of the arc.
     #[inline]
-    fn parameter(&self, normal: DVec2) -> Option<(f64, f64, f64)> {
+    fn sample(&self, point: DVec2, velocity: DVec2) -> Option<Sample> {
         let [w0, w1] = self.spinors;
-        let (cosine, sine) = (self.start.dot(normal), self.start.perp_dot(normal));
-        let spinor = w0.rotate(DVec2::new(1.0 + cosine, sine));
+        let (speed, normal) = (velocity.length(), -velocity.perp());
+        // The spinor of a normal bisects it and the start.
+        let turn = DVec2::new(speed + self.start.dot(normal), self.start.perp_dot(normal));
+        let spinor = w0.rotate(turn);
         let (a, b) = (w0.perp_dot(spinor), spinor.perp_dot(w1));
         let scale = 1.0 / (a + b);
         let (t, s) = (a * scale, b * scale);
-        if !(t >= -1e-9 && s >= -1e-9) {
+        let length = (w0 * s + w1 * t).length_squared();
+        let numerator = normal.dot(point - self.origin) * length / speed;
+        if !(t >= -SLACK && s >= -SLACK && numerator.is_finite()) {
             return None;
         }
-        let length = (w0 * s + w1 * t).length_squared();
         if !self.inflected {
-            return Some((s, t, length));
+            return Some(Sample { s, t, numerator });
         }
         let root = t.max(0.0).sqrt();
-        Some((s / (1.0 + root), root, length))
+        Some(Sample {
+            s: s / (1.0 + root),
+            t: root,
+            numerator,
+        })
+    }
+
+    /// The six conditions at the ends are met by a polynomial of degree 5, here raised to 9.
+    fn ends(&self, start: &End, end: &End) -> [f64; 10] {
+        let jet = |e: &End, sense: f64| {
+            let jet = SupportJet::of_element(e.point - self.origin, e.normal, e.curvature.recip());
+            let slope = sense * jet.slope;
+            SupportJet { slope, ..jet }.numerator(self.half_turning)
+        };
+        let last = jet(end, -1.0);
+        if self.inflected {
+            // From the end on τ = (1 - t)^2 with dτ = -2 dt, ddτ = 2 dt^2.
+            let last = [last[0], 2.0 * last[1], 4.0 * last[2] - 2.0 * last[1]];
+            quintic([0.0; 3], last)
+        } else {
+            quintic(jet(start, 1.0), last)
+        }
     }
 }
 
 impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
-    /// One arc of class 9: six support coefficients from the elements at the ends, four from tangents in between. Where
-    /// an end is an inflection, the arc begins there.
+    /// One arc of class 9: six support coefficients from the elements at the ends, four from tangents in between, which
+    /// first tell whether class 5 or 7 would do. Where an end is an inflection, the arc begins there.
     pub(crate) fn wide(&self, interval: &Interval) -> Option<Attempt> {
-        let (inflected, backwards) = (
-            interval.start.curvature == 0.0 || interval.end.curvature == 0.0,
-            interval.end.curvature == 0.0,
-        );
+        let backwards = interval.end.curvature == 0.0;
         let (start, end) = if backwards {
             (&interval.end, &interval.start)
         } else {
             (&interval.start, &interval.end)
         };
-        let origin = start.point;
-        let ends = G1Ends::between(
-            LineElement::from_unit(DVec2::ZERO, start.normal),
-            LineElement::from_unit(DVec2::ZERO, end.normal),
-        );
-        let (spinors, half_turning) = (ends.unit_spinors(), ends.half_turning());
-        let frame = Frame {
-            spinors: [spinors.0, spinors.1],
-            start: start.normal,
-            inflected,
+        let frame = Frame::new(start, end);
+        let mut g = frame.ends(start, end);
+        let (t0, t1) = (interval.start.t, interval.end.t);
+        let sample = |share: f64| {
+            let [point, velocity, _] = self.curve.jet(interval.span, t0 + (t1 - t0) * share);
+            frame.sample(point, velocity)
         };
 
-        // The six conditions at the ends are met by a polynomial of degree 5.
-        let (cosine, sine) = half_turning;
-        let jet = |e: &End, sense: f64| {
-            let jet = SupportJet::of_element(e.point - origin, e.normal, e.curvature.recip());
-            let slope = sense * jet.slope;
-            SupportJet { slope, ..jet }.numerator((sine, cosine))
-        };
-        let mut last = jet(end, -1.0);
-        let first = if inflected {
-            // From the end on τ = (1 - t)^2 with dτ = -2 dt, ddτ = 2 dt^2.
-            last = [last[0], 2.0 * last[1], 4.0 * last[2] - 2.0 * last[1]];
-            [0.0; 3]
-        } else {
-            jet(start, 1.0)
-        };
-        let mut g = quintic(first, last);
-
-        // With x = t/(1-t) the remainder over t^3 (1-t)^6 is a cubic in x: Newton's divided differences.
-        let (mut x, mut c) = ([0.0; 4], [0.0; 4]);
-        let mut error = 0.0_f64;
+        // Unit spinors h apart are at least cos(h/2) long in between.
+        let least_length = 0.5 * (1.0 + frame.half_turning.1);
+        let allowed = self.how.tolerance * least_length / PEAK;
+        let (mut at, mut weight, mut rest) = ([0.0; 4], [0.0; 4], [0.0; 4]);
         for (k, share) in NODES.into_iter().enumerate() {
-            let (normal, support) = self.tangent_about(interval, share, origin);
-            let (s, t, length) = frame.parameter(normal)?;
-            let rest = support * length - bernstein_9(&g, s, t);
-            error = error.max((rest / length).abs());
-            let cube = s * s * s;
-            x[k] = t / s;
-            c[k] = rest / (t * t * t * cube * cube);
+            let Sample { s, t, numerator } = sample(share)?;
+            let product = s * t;
+            (at[k], weight[k]) = (t, product * product * product);
+            rest[k] = numerator - bernstein_9(&g, s, t);
         }
-        if PEAK * error > self.how.tolerance {
-            add_cubic(&mut g, newton(x, c));
-            error = 0.0;
-            for share in PEAKS {
-                let (normal, support) = self.tangent_about(interval, share, origin);
-                let (s, t, length) = frame.parameter(normal)?;
-                error = error.max((bernstein_9(&g, s, t) / length - support).abs());
+        let mut error = largest(rest);
+        if error > allowed {
+            // The remainder over t^3 (1-t)^3, first as a line through the inner nodes, which is class 7 ...
+            let quotient: [f64; 4] = std::array::from_fn(|k| rest[k] / weight[k]);
+            let slope = (quotient[2] - quotient[1]) / (at[2] - at[1]);
+            let line = [quotient[1] - slope * at[1], slope, 0.0, 0.0];
+            error = largest([0, 3].map(|k| rest[k] - weight[k] * (line[0] + slope * at[k])));
+            if error <= allowed {
+                add_cubic(&mut g, line);
+            } else {
+                // ... and then as a cubic through all four.
+                add_cubic(&mut g, newton(at, quotient));
+                error = 0.0;
+                for share in PEAKS {
+                    let Sample { s, t, numerator } = sample(share)?;
+                    error = error.max((bernstein_9(&g, s, t) - numerator).abs());
+                }
             }
         }
 
         // Bernstein coefficients of one sign certify that the arc has no cusp.
         let sign = end.curvature;
-        let fit = if inflected {
+        let fit = if frame.inflected {
             let r = std::array::from_fn(|k| {
                 g[k + 3] * BINOMIALS[k + 3] / [1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0][k]
             });
-            let arc = InflectedArc::from_parts(origin, frame.spinors, r);
+            let arc = InflectedArc::from_parts(frame.origin, frame.spinors, r);
             if !arc.is_regular(sign) {
                 return None;
             }
             Fit::Inflected(if backwards { arc.reverse() } else { arc })
         } else {
-            let arc = PhArc::from_parts(spinors.0, spinors.1, g);
+            let arc = PhArc::from_parts(frame.spinors[0], frame.spinors[1], g);
             if !arc.radius_polynomial().iter().all(|r| r * sign > 0.0) {
                 return None;
             }
@@ -129,7 +166,7 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         };
         Some(Attempt {
             fit,
-            error: PEAK * error,
+            error: PEAK * error / least_length,
             matched: true,
         })
     }
@@ -156,7 +193,11 @@ fn quintic(first: [f64; 3], last: [f64; 3]) -> [f64; 10] {
     g
 }
 
-/// Coefficients by powers of x of the cubic through `(x, c)`.
+fn largest<const K: usize>(values: [f64; K]) -> f64 {
+    values.iter().fold(0.0, |most, value| most.max(value.abs()))
+}
+
+/// Coefficients by powers of the cubic through `(x, c)`: Newton's divided differences.
 fn newton(x: [f64; 4], mut c: [f64; 4]) -> [f64; 4] {
     for level in 1..4 {
         for k in (level..4).rev() {
@@ -173,10 +214,11 @@ fn newton(x: [f64; 4], mut c: [f64; 4]) -> [f64; 4] {
     cubic
 }
 
-/// Adds `t^3 (1-t)^6` times a cubic in `t/(1-t)`, which changes nothing at the ends up to second derivatives.
-fn add_cubic(g: &mut [f64; 10], cubic: [f64; 4]) {
-    for (i, c) in cubic.into_iter().enumerate() {
-        g[3 + i] += c / BINOMIALS[3 + i];
+/// Adds `t^3 (1-t)^3` times a cubic by powers of t, which changes nothing at the ends up to second derivatives.
+fn add_cubic(g: &mut [f64; 10], [a, b, c, d]: [f64; 4]) {
+    let bernstein = [a, 3.0 * a + b, 3.0 * a + 2.0 * b + c, a + b + c + d];
+    for (i, scaled) in bernstein.into_iter().enumerate() {
+        g[3 + i] += scaled / BINOMIALS[3 + i];
     }
 }
 
