@@ -90,6 +90,7 @@ mod error;
 mod fit;
 mod inflected;
 mod interpolator;
+mod kubota;
 #[cfg(feature = "kurbo")]
 mod kurbo_path;
 mod line;

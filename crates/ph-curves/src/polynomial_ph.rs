@@ -3,8 +3,7 @@
 use bezier_mass::{BezierCurve, MassPoint, bernstein};
 use glam::DVec2;
 
-use crate::complex;
-use crate::{ArcLength, Error, quadrature};
+use crate::{ArcLength, Error, kubota, quadrature};
 
 /// The curve `r(t) = start + ∫ h w²` of a complex polynomial `w`, its *preimage*, and a real common factor `h`.
 ///
@@ -21,10 +20,6 @@ pub struct PolynomialPh {
     arc_length: ArcLength,
 }
 
-/// A hodograph counts as Pythagorean if `x'² + y'²` is a square up to this share of its largest coefficient: far above
-/// the rounding of control points given to double precision, far below any curve that is not meant to be one.
-const RECOGNITION_TOLERANCE: f64 = 1e-9;
-
 impl PolynomialPh {
     /// The curve from `start` with the given preimage (Bernstein coefficients on `[0, 1]`) and no common factor.
     ///
@@ -39,8 +34,8 @@ impl PolynomialPh {
     ///
     /// # Errors
     ///
-    /// As for [`PolynomialPh::try_new`], and [`Error::NegativeSpeed`] if a Bernstein coefficient of `h` is negative
-    /// (which keeps the speed from being proved non-negative; subdivide, or reverse the sign of `h`).
+    /// As for [`PolynomialPh::try_new`], and [`Error::NegativeSpeed`] with the least Bernstein coefficient of `h` if it
+    /// is negative somewhere on `[0, 1]`.
     pub fn with_factor(
         start: DVec2,
         factor: Vec<f64>,
@@ -60,7 +55,8 @@ impl PolynomialPh {
                 what: "hodograph of a PH curve",
             });
         }
-        if let Some(&coefficient) = factor.iter().find(|h| **h < 0.0) {
+        if !is_non_negative(&factor) {
+            let coefficient = factor.iter().copied().fold(f64::INFINITY, f64::min);
             return Err(Error::NegativeSpeed { coefficient });
         }
         let square = bernstein::product_with(&preimage, &preimage, |a, b| a.rotate(*b));
@@ -76,13 +72,14 @@ impl PolynomialPh {
         })
     }
 
-    /// Recognises a polynomial Bézier curve without a common factor of `x'` and `y'`: the preimage is the polynomial
-    /// square root of the complex hodograph.
+    /// Recognises a polynomial Bézier curve: by Kubota's theorem its hodograph is the square of a preimage times the real
+    /// common factor of `x'` and `y'`, which may be constant.
     ///
     /// # Errors
     ///
-    /// [`Error::NotPythagorean`] with the relative residual of the square; [`Error::TooFew`] for less than two points;
-    /// [`Error::NonFinite`]; [`Error::ZeroDirection`] if the first derivative vanishes (then there is a common factor).
+    /// [`Error::NotPythagorean`] with the relative residual of `h w²`; [`Error::NegativeSpeed`] if the common factor changes
+    /// its sign on `[0, 1]`, which makes a cusp; [`Error::TooFew`] for less than two points; [`Error::NonFinite`];
+    /// [`Error::ZeroDirection`] for a single point.
     pub fn recognise(control_points: &[DVec2]) -> Result<Self, Error> {
         let (Some(&start), 2..) = (control_points.first(), control_points.len()) else {
             return Err(Error::TooFew {
@@ -96,29 +93,14 @@ impl PolynomialPh {
                 what: "control point",
             });
         }
-        let hodograph = bernstein::derivative(control_points);
-        let scale = hodograph
-            .iter()
-            .fold(0.0, |largest: f64, z| largest.max(z.length()));
-        let Some(preimage) = square_root(&hodograph) else {
-            return Err(Error::ZeroDirection {
-                what: "first derivative of the curve",
-            });
-        };
-        let square = bernstein::product_with(&preimage, &preimage, |a, b| a.rotate(*b));
-        let misses = square
-            .iter()
-            .zip(&hodograph)
-            .map(|(found, given)| (*found - *given).length());
-        let relative_residual = if square.len() == hodograph.len() {
-            misses.fold(0.0, f64::max) / scale
-        } else {
-            1.0
-        };
-        if relative_residual.is_nan() || relative_residual > RECOGNITION_TOLERANCE {
-            return Err(Error::NotPythagorean { relative_residual });
-        }
-        Self::try_new(start, preimage)
+        let (factor, preimage) = kubota::factorise(&bernstein::derivative(control_points))?;
+        Self::with_factor(start, factor, preimage)
+    }
+
+    /// The Bernstein coefficients of the real common factor `h`.
+    #[must_use]
+    pub fn factor(&self) -> &[f64] {
+        &self.factor
     }
 
     /// The Bernstein coefficients of the preimage `w`.
@@ -204,29 +186,24 @@ impl PolynomialPh {
     }
 }
 
-/// The complex polynomial whose square has these Bernstein coefficients, if there is one: solved for from the start,
-/// coefficient by coefficient, so that only the first half of the equations is met by construction.
-fn square_root(square: &[DVec2]) -> Option<Vec<DVec2>> {
-    let degree = square.len().checked_sub(1)?;
-    let half = degree / 2;
-    let first = complex::sqrt(*square.first()?);
-    if first == DVec2::ZERO {
-        return None;
+/// A common factor may be negative by this share of its largest coefficient: a double zero is that much below zero in
+/// rounded coefficients.
+const NEGATIVE: f64 = 1e-12;
+
+/// Whether a polynomial is not negative on `[0, 1]`: by the signs of its Bernstein coefficients, or else by its values at
+/// the ends and at the certified zeros of its derivative.
+fn is_non_negative(coefficients: &[f64]) -> bool {
+    if coefficients.iter().all(|c| *c >= 0.0) {
+        return true;
     }
-    // In powers of t / (1 - t) a Bernstein coefficient carries its binomial, and products are plain convolutions.
-    let mut scaled = vec![first];
-    for k in 1..=half {
-        let known = (1..k).fold(DVec2::ZERO, |sum, i| sum + scaled[i].rotate(scaled[k - i]));
-        let rest = bernstein::binomial(degree, k) * square[k] - known;
-        scaled.push(complex::divide(rest, 2.0 * first));
-    }
-    Some(
-        scaled
-            .iter()
-            .enumerate()
-            .map(|(k, w)| *w / bernstein::binomial(half, k))
-            .collect(),
-    )
+    let largest = coefficients
+        .iter()
+        .fold(0.0_f64, |most, c| most.max(c.abs()));
+    let allowed = |t: f64| bernstein::evaluate::<f64>(coefficients, t) >= -NEGATIVE * largest;
+    allowed(0.0)
+        && allowed(1.0)
+        && variation::roots(&bernstein::derivative(coefficients))
+            .is_ok_and(|roots| roots.iter().all(|root| allowed(root.value())))
 }
 
 #[cfg(test)]
@@ -276,11 +253,65 @@ mod tests {
             PolynomialPh::recognise(&[DVec2::ONE]),
             Err(Error::TooFew { .. })
         ));
-        let still = [DVec2::ONE, DVec2::ONE, DVec2::X, DVec2::Y];
         assert!(matches!(
-            PolynomialPh::recognise(&still),
+            PolynomialPh::recognise(&[DVec2::ONE; 3]),
             Err(Error::ZeroDirection { .. })
         ));
+    }
+
+    #[test]
+    fn a_common_factor_is_recognised() {
+        let factors = [
+            vec![2.0],
+            vec![1.0, 3.0],
+            vec![0.0, 1.0],
+            vec![1.0, 0.5, 2.0],
+            vec![1.0, -0.2, 1.0],
+            vec![1.0, -1.0, 1.0],
+            vec![0.3, 1.0, 0.2, 2.0],
+        ];
+        for factor in &factors {
+            for preimage in [&PREIMAGE[..1], &PREIMAGE[..2], &PREIMAGE] {
+                let curve =
+                    PolynomialPh::with_factor(DVec2::ONE, factor.clone(), preimage).unwrap();
+                let found = PolynomialPh::recognise(curve.control_points()).unwrap();
+                assert_eq!(
+                    found.factor().len(),
+                    factor.len(),
+                    "{factor:?} {preimage:?}"
+                );
+                for t in [0.0, 0.2, 0.9] {
+                    assert!((found.point(t) - curve.point(t)).length() < 1e-12);
+                    let (a, b) = (found.arc_length().up_to(t), curve.arc_length().up_to(t));
+                    assert!((a - b).abs() < 1e-12, "{factor:?} {preimage:?}");
+                }
+            }
+        }
+        // A factor of both signs is a cusp, at which the speed has no polynomial form.
+        let turned = [DVec2::ZERO, DVec2::X, DVec2::new(0.2, 0.0)];
+        assert!(matches!(
+            PolynomialPh::recognise(&turned),
+            Err(Error::NegativeSpeed { .. })
+        ));
+    }
+
+    #[test]
+    fn recognition_does_not_depend_on_place_size_or_direction() {
+        let curve = PolynomialPh::with_factor(DVec2::ONE, vec![1.0, 0.5, 2.0], PREIMAGE).unwrap();
+        for scale in [1e-7, 1.0, 1e9] {
+            for angle in [0.0, 1.0, 2.0, 3.0, 4.0] {
+                let turn = DVec2::from_angle(angle);
+                let moved: Vec<DVec2> = curve
+                    .control_points()
+                    .iter()
+                    .map(|p| (turn.rotate(*p) + DVec2::new(3.0, -8.0)) * scale)
+                    .collect();
+                let found = PolynomialPh::recognise(&moved).unwrap();
+                assert_eq!(found.factor().len(), 3);
+                let length = found.arc_length().total() / scale;
+                assert!((length - curve.arc_length().total()).abs() < 1e-12);
+            }
+        }
     }
 
     #[test]
