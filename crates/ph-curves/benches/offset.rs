@@ -22,18 +22,18 @@ fn spiral(spans: u32) -> CubicPath {
 #[divan::bench(args = [1e-2, 1e-4, 1e-7])]
 fn convert_class_3(bencher: Bencher<'_, '_>, tolerance: f64) {
     let curve = spiral(20);
-    bencher.bench(|| approximate(black_box(&curve), &Approximation::within(tolerance)));
+    bencher.bench(|| approximate(black_box(&curve), &Approximation::quartics(tolerance)));
 }
 
 #[divan::bench(args = [1e-2, 1e-4, 1e-7])]
 fn convert_class_9(bencher: Bencher<'_, '_>, tolerance: f64) {
     let curve = spiral(20);
-    bencher.bench(|| approximate(black_box(&curve), &Approximation::fewest(tolerance)));
+    bencher.bench(|| approximate(black_box(&curve), &Approximation::within(tolerance)));
 }
 
 #[divan::bench(args = [5, 20, 80])]
 fn further_offset(bencher: Bencher<'_, '_>, spans: u32) {
-    let spline = approximate(&spiral(spans), &Approximation::fewest(1e-7))
+    let spline = approximate(&spiral(spans), &Approximation::within(1e-7))
         .expect("a spline")
         .spline;
     bencher.bench(|| black_box(&spline).offset(5.0));
@@ -41,7 +41,7 @@ fn further_offset(bencher: Bencher<'_, '_>, spans: u32) {
 
 #[divan::bench(args = [5, 20, 80])]
 fn trimmed_offset(bencher: Bencher<'_, '_>, spans: u32) {
-    let spline = approximate(&spiral(spans), &Approximation::fewest(1e-7))
+    let spline = approximate(&spiral(spans), &Approximation::within(1e-7))
         .expect("a spline")
         .spline;
     bencher.bench(|| black_box(&spline).trimmed_offset(5.0));

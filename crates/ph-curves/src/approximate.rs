@@ -1,5 +1,4 @@
-//! G2 approximation of plane curves by class-3 arcs: cut at inflections and vertices, interpolate curvature elements,
-//! measure, halve.
+//! G2 approximation of plane curves by PH arcs: cut at inflections, interpolate curvature elements, measure, cut again.
 
 use glam::DVec2;
 
@@ -10,54 +9,54 @@ use crate::{
     ArcSpline, Break, BreakKind, Error, Joint, Piece, PlacedArc, PlaneCurve, Side, TQuartic,
 };
 
-/// How a curve is approximated.
+/// How a curve is approximated: [`Approximation::within`] a tolerance, unless the arcs have to be of lowest degree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Approximation {
     /// Largest distance allowed between the curve and the spline, measured between tangents with the same normal; it
     /// is then the same for all offsets. In plane units.
     pub tolerance: f64,
-    /// Tension of the pairs of arcs, in (0, 1); 1/2 gives order 5, any other value order 3.
-    pub beta: f64,
     /// The class of the arcs.
     pub arcs: Arcs,
+    /// For class 3, the tension of the pairs of arcs, in (0, 1); 1/2 gives order 5, any other value order 3.
+    pub beta: f64,
     /// For class 3, curvature continuity wherever its arcs allow it (everywhere but at inflections, cusps and corners);
     /// [`Joint::G1`] needs about half the arcs for a continuous tangent alone.
     pub continuity: Joint,
 }
 
 /// The class of the arcs of an approximation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Arcs {
-    /// Pairs of Tschirnhausen quartics: lowest degree, monotone curvature on every arc, the curve's vertices kept.
-    /// Order 5.
-    Class3,
-    /// Single PH arcs of class 9, rational of degree 10, which take point, tangent and curvature at both ends and four
-    /// supports in between. Order 10: far fewer pieces at tight tolerances.
+    /// Single PH arcs of class 9, rational of degree 10, which take point, tangent and curvature at both ends and up to
+    /// four supports in between; of degree 11 where one end is an inflection. Order 10, G2 across inflections: the fewest
+    /// pieces, and the least time.
+    #[default]
     Class9,
+    /// Pairs of Tschirnhausen quartics: lowest degree, monotone curvature on every arc, the curve's vertices kept.
+    /// Order 5, G1 at inflections, in pieces that shrink towards them.
+    Class3,
 }
 
 impl Approximation {
-    /// G2 within `tolerance` by Tschirnhausen quartics of monotone curvature, with tension 1/2.
+    /// G2 within `tolerance`, by arcs of class 9.
     #[must_use]
     pub const fn within(tolerance: f64) -> Self {
         Self {
             tolerance,
+            arcs: Arcs::Class9,
             beta: 0.5,
-            arcs: Arcs::Class3,
             continuity: Joint::G2,
         }
     }
 
-    /// G2 within `tolerance` by the fewest pieces: arcs of class 9.
+    /// G2 within `tolerance` but for inflections, by Tschirnhausen quartics of monotone curvature with tension 1/2.
     #[must_use]
-    pub const fn fewest(tolerance: f64) -> Self {
+    pub const fn quartics(tolerance: f64) -> Self {
         Self {
-            tolerance,
-            beta: 0.5,
-            arcs: Arcs::Class9,
-            continuity: Joint::G2,
+            arcs: Arcs::Class3,
+            ..Self::within(tolerance)
         }
     }
 }
@@ -68,7 +67,8 @@ impl Approximation {
 pub struct Approximated {
     /// The spline.
     pub spline: ArcSpline,
-    /// Largest distance found between the curve and the spline.
+    /// The largest difference of supports found at inner samples of every piece, times a factor for the peaks between
+    /// them: what the tolerance was held against. See the crate's limits.
     pub error: f64,
     /// For every piece of the spline the parameter interval of the curve that it was made from (span number plus local
     /// parameter); the arcs of a pair share theirs. Corners have an empty interval.
@@ -108,13 +108,16 @@ const MOST_DEPTH: u32 = 48;
 /// Smallest tolerance in units of the last place of the largest coordinate.
 const LEAST_TOLERANCE_ULPS: f64 = 64.0;
 
-/// Approximates `curve` by a spline of class-3 arcs and segments.
+/// Approximates `curve` by a spline of PH arcs and segments.
 ///
-/// The curve is cut at its inflections, vertices and knots; on every part of monotone curvature the end elements are
-/// admissible, and two class-3 arcs interpolate them with G2 contact ([`G2Pair`](crate::G2Pair)); where the measured error exceeds the
-/// tolerance, the part is cut further. Straight spans stay segments, circular arcs stay exact. The policy where class 3
-/// has no curvature to match, at inflections and cusps, is one G1 arc on the adjacent part, in parts that shrink towards
-/// the point. Corners and cusps become fans of normals.
+/// The curve is cut at its knots, inflections and cusps. Every part gets one arc of class 9 that interpolates the elements
+/// at its ends with G2 contact, and begins in the inflection where one of them is; where the measured error exceeds the
+/// tolerance, the part is cut further. Straight spans stay segments, circular arcs stay exact. Corners and cusps become fans
+/// of normals.
+///
+/// [`Arcs::Class3`] cuts at vertices too, and gives every part of monotone curvature two arcs ([`G2Pair`](crate::G2Pair)); it has no
+/// curvature to match at inflections, where the policy is one G1 arc on the adjacent part, in parts that shrink towards the
+/// point. So do both classes at cusps.
 ///
 /// # Errors
 /// [`Error::BadTolerance`], [`Error::TensionOutOfRange`]; [`Error::ToleranceTooSmall`] with the resolution at this size;

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use kurbo::{BezPath, PathEl, Point};
 
-use crate::plane_curve::line_cubic;
+use crate::cubic_path::line_cubic;
 use crate::{ArcSpline, CubicPath, Error, Piece};
 
 /// Halvings of one piece before its cubics are taken as they are; the error falls by 16 with each.

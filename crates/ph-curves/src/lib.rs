@@ -84,6 +84,7 @@ mod cam;
 mod class3;
 mod complex;
 mod constant_width;
+mod cubic_path;
 mod curvature_element;
 mod dual;
 mod error;
@@ -103,6 +104,7 @@ mod polynomial_ph;
 mod pottmann;
 mod quadrature;
 mod quintic;
+mod rational_path;
 mod rosette;
 mod sampled;
 mod spatial;
@@ -118,6 +120,7 @@ pub use class3::{G1Ends, LineElement};
 pub use constant_width::{
     EvolutePolygon, SupportJet, antipodal_arc, hermite_arc, interpolate_constant_width,
 };
+pub use cubic_path::CubicPath;
 pub use curvature_element::{CurvatureElement, EvoluteTriangle, G2Pair, similarity_centre};
 pub use dual::DualCurve;
 pub use error::Error;
@@ -132,10 +135,11 @@ pub use minkowski::{
 pub use ph_arc::{Contact, PhArc, TQuartic};
 pub use ph_spline::{PhSpline, SplineEnds};
 pub use piece::{Piece, PlacedArc, Segment};
-pub use plane_curve::{Break, BreakKind, CubicPath, PlaneCurve, Side};
+pub use plane_curve::{Break, BreakKind, PlaneCurve, Side};
 pub use polynomial_ph::PolynomialPh;
 pub use pottmann::{PottmannForm, TQuarticCoefficients};
 pub use quintic::Hermite;
+pub use rational_path::RationalPath;
 pub use rosette::{Diameter, Rosette};
 pub use spatial::{
     Frame, Quaternion, RationalFrameQuintic, SpatialHermite, SpatialHermiteAngles, SpatialPh,

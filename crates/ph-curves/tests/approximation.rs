@@ -64,24 +64,26 @@ fn control(random: &mut Random, family: usize) -> (Vec<DVec2>, bool) {
     }
 }
 
-/// Distance from `point` to the pieces `range`, by dense sampling and golden section about the best sample.
+/// Distance from `point` to the pieces: golden section about the best of some samples.
 fn distance(pieces: &[Piece], point: DVec2) -> f64 {
+    const SAMPLES: u32 = 32;
     let mut best = f64::INFINITY;
     for piece in pieces {
         let away = |t: f64| (piece.point(t) - point).length();
-        let nearest = (0..=32)
-            .map(|k| f64::from(k) / 32.0)
-            .min_by(|a, b| away(*a).total_cmp(&away(*b)))
-            .unwrap();
-        let (mut low, mut high) = (
-            (nearest - 1.0 / 32.0).max(0.0),
-            (nearest + 1.0 / 32.0).min(1.0),
-        );
-        for _ in 0..60 {
+        let (mut nearest, mut least) = (0.0, f64::INFINITY);
+        for t in (0..=SAMPLES).map(|k| f64::from(k) / f64::from(SAMPLES)) {
+            let distance = away(t);
+            if distance < least {
+                (nearest, least) = (t, distance);
+            }
+        }
+        let step = 1.0 / f64::from(SAMPLES);
+        let (mut low, mut high) = ((nearest - step).max(0.0), (nearest + step).min(1.0));
+        for _ in 0..44 {
             let (a, b) = (low + 0.382 * (high - low), low + 0.618 * (high - low));
             if away(a) < away(b) { high = b } else { low = a }
         }
-        best = best.min(away(0.5 * (low + high))).min(away(nearest));
+        best = best.min(least).min(away(0.5 * (low + high)));
     }
     best
 }
@@ -111,17 +113,27 @@ fn error(curve: &CubicPath, result: &Approximated, samples: usize) -> f64 {
     worst
 }
 
+/// The error of every so many splines is measured densely; of all of them if the long tests are asked for.
+const MEASURED: usize = 6;
+
 #[test]
 fn a_thousand_random_b_splines_stay_within_tolerance_with_quartics() {
-    survive(Approximation::within);
+    survive(Approximation::quartics, MEASURED);
 }
 
 #[test]
 fn a_thousand_random_b_splines_stay_within_tolerance_with_class_9() {
-    survive(Approximation::fewest);
+    survive(Approximation::within, MEASURED);
 }
 
-fn survive(how: impl Fn(f64) -> Approximation) {
+#[test]
+#[ignore = "ten seconds: the errors of all thousand splines"]
+fn all_of_a_thousand_random_b_splines_are_within_tolerance() {
+    survive(Approximation::quartics, 1);
+    survive(Approximation::within, 1);
+}
+
+fn survive(how: impl Fn(f64) -> Approximation, every: usize) {
     let mut random = Random(20_261_122);
     let (mut refused, mut pieces) = (0, 0);
     for case in 0..1000 {
@@ -141,12 +153,15 @@ fn survive(how: impl Fn(f64) -> Approximation) {
         };
         pieces += result.spline.pieces().len();
         assert!(result.error <= tolerance);
-        let found = error(&curve, &result, 5);
-        assert!(
-            found <= 1.001 * tolerance,
-            "case {case}, family {family}: {} of the tolerance",
-            found / tolerance
-        );
+        // All families take their turn.
+        if (case / 6) % every == 0 {
+            let found = error(&curve, &result, 5);
+            assert!(
+                found <= 1.001 * tolerance,
+                "case {case}, family {family}: {} of the tolerance",
+                found / tolerance
+            );
+        }
         // Continuity: points and normals agree at every joint.
         let all = result.spline.pieces();
         for (i, _) in result.spline.joints().iter().enumerate() {

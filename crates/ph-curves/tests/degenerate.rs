@@ -47,8 +47,8 @@ const INPUTS: [(&str, [(f64, f64); 4]); 9] = [
 
 fn both(tolerance: f64) -> [Approximation; 2] {
     [
+        Approximation::quartics(tolerance),
         Approximation::within(tolerance),
-        Approximation::fewest(tolerance),
     ]
 }
 
@@ -126,7 +126,7 @@ fn far_from_the_origin_the_answer_is_the_same() {
         assert_eq!(near.spline.pieces().len(), far.spline.pieces().len());
         assert!((near.spline.length() - far.spline.length()).abs() < 1e-5);
     }
-    let refused = approximate(&far, &Approximation::within(1e-7));
+    let refused = approximate(&far, &Approximation::quartics(1e-7));
     assert!(matches!(refused, Err(Error::ToleranceTooSmall { .. })));
 }
 
@@ -147,7 +147,7 @@ fn straight_runs_and_circles_stay_what_they_are() {
     let corners = [dvec2(0.0, 0.0), dvec2(4.0, 0.0), dvec2(4.0, 3.0)];
     let result = approximate(
         &CubicPath::polyline(&corners, true).unwrap(),
-        &Approximation::within(1e-6),
+        &Approximation::quartics(1e-6),
     )
     .unwrap();
     let segments = result
@@ -170,7 +170,7 @@ fn straight_runs_and_circles_stay_what_they_are() {
             .to_vec(),
     )
     .unwrap();
-    let result = approximate(&circle, &Approximation::within(1e-9)).unwrap();
+    let result = approximate(&circle, &Approximation::quartics(1e-9)).unwrap();
     assert_eq!(result.spline.pieces().len(), 1);
     assert!(
         result.error < 1e-14
@@ -185,10 +185,10 @@ fn hostile_numbers_are_refused() {
         assert!(CubicPath::polyline(&[DVec2::ZERO, dvec2(bad, 0.0)], false).is_err());
         assert!(CubicPath::through(&[DVec2::ZERO, dvec2(0.0, bad), DVec2::X], false).is_err());
         assert!(matches!(
-            approximate(&curve, &Approximation::within(bad)),
+            approximate(&curve, &Approximation::quartics(bad)),
             Err(Error::BadTolerance { .. })
         ));
-        let spline = approximate(&curve, &Approximation::within(1e-3))
+        let spline = approximate(&curve, &Approximation::quartics(1e-3))
             .unwrap()
             .spline;
         assert!(spline.offset(bad).is_err() && spline.trimmed_offset(bad).is_err());
@@ -207,12 +207,12 @@ fn hostile_numbers_are_refused() {
             &curve,
             &Approximation {
                 beta: 1.0,
-                ..Approximation::within(1.0)
+                ..Approximation::quartics(1.0)
             }
         )
         .is_err()
     );
-    assert!(approximate(&curve, &Approximation::within(0.0)).is_err());
+    assert!(approximate(&curve, &Approximation::quartics(0.0)).is_err());
     let element =
         |x: f64, r: f64| CurvatureElement::new(dvec2(x, 0.0), DVec2::from_angle(x), r).unwrap();
     assert!(G2Pair::new(&element(0.0, 1.0), &element(1.0, -1.0), 0.5).is_err());

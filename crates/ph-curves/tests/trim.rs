@@ -15,7 +15,7 @@ fn rectangle(width: f64, height: f64, scale: f64) -> ArcSpline {
         dvec2(0.0, height),
     ];
     let path = CubicPath::polyline(&corners.map(|p| p * scale), true).unwrap();
-    spline(&path, Approximation::within(1e-6 * scale))
+    spline(&path, Approximation::quartics(1e-6 * scale))
 }
 
 fn distance(spline: &ArcSpline, point: DVec2) -> f64 {
@@ -59,7 +59,7 @@ fn a_waist_separates_the_inner_offset_into_two() {
         dvec2(0.0, 4.0),
     ];
     let path = CubicPath::polyline(&outline, true).unwrap();
-    let spline = spline(&path, Approximation::within(1e-6));
+    let spline = spline(&path, Approximation::quartics(1e-6));
     let parts = spline.trimmed_offset(-1.0).unwrap();
     assert_eq!(parts.len(), 2);
     assert!(parts.iter().all(ArcSpline::is_closed));
@@ -97,9 +97,9 @@ fn random_loops_keep_exactly_what_keeps_its_distance() {
             .collect();
         let path = CubicPath::uniform_bspline(&control, closed).unwrap();
         let how = if case % 2 == 0 {
-            Approximation::fewest(1e-6)
+            Approximation::within(1e-6)
         } else {
-            Approximation::within(1e-4)
+            Approximation::quartics(1e-4)
         };
         let spline = spline(&path, how);
         let d = (random.unit() - 0.5) * 0.6;

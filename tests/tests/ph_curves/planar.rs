@@ -406,7 +406,7 @@ fn g2_approximate(case: &Case<'_>) -> Result<(), Error> {
     /// Samples of a source interval at which the support difference is measured.
     const SAMPLES: usize = 50;
     let curve = bspline(case)?;
-    let result = approximate(&curve, &Approximation::within(case.number("tolerance")))?;
+    let result = approximate(&curve, &Approximation::quartics(case.number("tolerance")))?;
     let arcs: Vec<(TQuartic, [f64; 2])> = result
         .spline
         .pieces()

@@ -5,12 +5,15 @@
 //! their inner control points at equal distances from the corner; two curvature elements with their circles, the triangle
 //! of the evolute and the pair of quartics between them; the inner Bézier lines of both arcs through the centre of
 //! similarity of their end circles (Theorem 4); the cubics around a triangle whose involute is an oval of constant width;
-//! the width of an ellipse against the direction, a wave, and that of the oval, a straight line.
+//! the cubics around a pentagon, which meet in cusps on its sides; a circle whose arcs have chords as their middle lines in
+//! class 2 and a polygon of Bézier lines in class 6; the width of an ellipse against the direction, a wave, and that of the
+//! oval, a straight line.
 
 use anyhow::Result;
 use glam::{DVec2, DVec3, dvec2};
 use ph_curves::{
-    CurvatureElement, DualCurve, EvolutePolygon, G2Pair, Line, TCubic, TQuartic, similarity_centre,
+    CurvatureElement, DualCurve, EvolutePolygon, G2Pair, Line, PhArc, TCubic, TQuartic,
+    similarity_centre,
 };
 
 use crate::color::{BLUE, GREEN, GREY, INK, ORANGE, VERMILION};
@@ -48,14 +51,17 @@ impl Demo for DualControl {
             element_plot(&pair)?,
             theorem4_plot(&pair)?,
             oval_plot()?,
+            pentagon_plot()?,
+            circle_plot()?,
             width_plot()?,
         ];
         context.figure(
             "figure",
-            &Figure::grid(3, plots).aspect(0.95),
+            &Figure::grid(4, plots).aspect(0.95),
             "A dual Bézier curve of class 3 with its Farin lines; Tschirnhausen cubics in triangles; two admissible curvature \
-             elements and the quartics between them; Theorem 4; an oval of constant width from a triangle; width functions.",
-            "Six plots with curves, the lines that control them and, in the last one, two width functions.",
+             elements and the quartics between them; Theorem 4; an oval of constant width from a triangle; the cubics of a \
+             pentagon; a circle by Bézier lines of class 2 and 6; width functions.",
+            "Eight plots with curves, the lines that control them and, in the last one, two width functions.",
         )
     }
 }
@@ -279,6 +285,67 @@ fn oval_plot() -> Result<Plot> {
     Ok(plot)
 }
 
+fn pentagon_plot() -> Result<Plot> {
+    let mut plot = Plot::geometry("cubics of a pentagon");
+    let corners = [
+        dvec2(0.0, 0.0),
+        dvec2(1.0, -0.1),
+        dvec2(1.45, 0.75),
+        dvec2(0.6, 1.45),
+        dvec2(-0.3, 0.85),
+    ];
+    let polygon = EvolutePolygon::try_new(&corners)?;
+    plot.polygon(&corners, GREY.line().dashed());
+    for (k, cubic) in polygon.cubics().iter().enumerate() {
+        plot.polyline(cubic.points(), GREY.line().width(1.0));
+        plot.trace(|t| cubic.point(t), 0.0, 1.0, BLUE.line().width(2.4));
+        plot.point(
+            cubic.points()[0],
+            ["P₁", "P₂", "P₃", "P₄", "P₅"][k % 5],
+            Side::Right,
+            INK.line(),
+        );
+    }
+    Ok(plot)
+}
+
+/// A third of the unit circle in class `N - 1`.
+fn circle_arc<const N: usize>(turn: f64) -> Result<PhArc<N>> {
+    let spinor = |angle: f64| DVec2::from_angle(0.5 * angle);
+    let third = std::f64::consts::TAU / 3.0;
+    let point = PhArc::<N>::new(spinor(turn), spinor(turn + third), [0.0; N])?;
+    Ok(point.offset(1.0))
+}
+
+fn circle_plot() -> Result<Plot> {
+    let mut plot = Plot::geometry("a circle in class 2 and 6");
+    for third in 0..3 {
+        let turn = f64::from(third) * std::f64::consts::TAU / 3.0;
+        let (low, high) = (circle_arc::<3>(turn)?, circle_arc::<7>(turn)?);
+        for (curve, color, name) in [
+            (DualCurve::from(&low), GREY, "class 2"),
+            (DualCurve::from(&high), ORANGE, "class 6"),
+        ] {
+            let vertices: Vec<DVec2> = curve
+                .vertices()
+                .iter()
+                .map(|x| dvec2(x.y, x.z) / x.x)
+                .collect();
+            let style = color.line();
+            plot.polyline(
+                &vertices,
+                if third == 0 { style.label(name) } else { style },
+            );
+            plot.points(&vertices, Marker::Ring, color.line());
+        }
+        plot.trace(|t| high.point(t), 0.0, 1.0, BLUE.line().width(2.4));
+        let joint = high.contact(0.0);
+        let along = 0.5 * joint.normal.perp();
+        plot.segment(joint.point - along, joint.point + along, GREY.line());
+    }
+    Ok(plot)
+}
+
 fn width_plot() -> Result<Plot> {
     let mut plot = Plot::chart("width against direction", "normal angle ψ", "width");
     let (polygon, width) = oval()?;
@@ -297,6 +364,5 @@ fn width_plot() -> Result<Plot> {
         std::f64::consts::TAU,
         BLUE.line().label("oval"),
     );
-    plot.legend(Corner::BottomRight);
     Ok(plot)
 }

@@ -135,6 +135,7 @@ impl<S: Support> Study<S> {
         let mut frames = Plot::geometry("frames");
         frames.trace(|t| curve(t)[0], 0.0, SPAN, INK.line().width(2.0));
         let mut bent = Plot::geometry("evolute and involute");
+        bent.view(DVec2::new(-1.2, -2.4), DVec2::new(5.6, 1.7));
         bent.trace(|t| curve(t)[0], 0.0, SPAN, INK.line().width(2.0));
         for t in [0.25, 0.8, 1.35, 1.9] {
             let [point, derivative, _] = curve(t);
@@ -186,7 +187,7 @@ impl<S: Support> Study<S> {
             .vectors()
             .iter()
             .enumerate()
-            .map(|(i, line)| -2.0 * line.x + if i % 3 == 1 { 0.12 } else { 0.0 })
+            .map(|(i, line)| -2.0 * line.x + if i.abs_diff(4) < 2 { 0.06 } else { 0.0 })
             .collect();
         Ok(IsoperimetricArc::from_supports(
             self.arc.clone(),

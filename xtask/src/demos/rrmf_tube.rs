@@ -78,6 +78,9 @@ impl Demo for RrmfTube {
     }
 }
 
+/// How steeply the colour changes between stripes: over less than two cells of the mesh, so that their edges are smooth.
+const STEEPNESS: f64 = 5.0;
+
 /// The tube with a scalar that changes sign around it, in eight stripes that follow a frame.
 fn striped(
     patches: &[BezierPatch<DVec3>; 4],
@@ -99,7 +102,7 @@ fn striped(
                 let centre = curve.point(u);
                 let spoke = patch.point(u, j as f64 / around as f64)? - centre;
                 let angle = spoke.dot(frame.third).atan2(spoke.dot(frame.second));
-                stripes.push((4.0 * angle).sin().signum());
+                stripes.push((STEEPNESS * (4.0 * angle).sin()).clamp(-1.0, 1.0));
             }
         }
         let surface = |u: f64, v: f64| {

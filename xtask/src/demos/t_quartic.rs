@@ -61,7 +61,7 @@ impl Demo for TQuartic {
 
     fn run(&self, context: &mut Context) -> Result<()> {
         let curve = CubicPath::uniform_bspline(&CONTROL, false)?;
-        let how = Approximation::within(self.tolerance);
+        let how = Approximation::quartics(self.tolerance);
         let result = approximate(&curve, &how).or_bad_input("--tolerance")?;
         let samples = context.pick(400, 60);
 
@@ -197,7 +197,7 @@ fn spiral_plot() -> Result<Plot> {
         plot.points(&joints, Marker::Dot, color.line());
     }
     plot.view(dvec2(-2.1, -2.9), dvec2(3.3, 1.7))
-        .legend(Corner::TopRight);
+        .legend(Corner::BottomRight);
     Ok(plot)
 }
 

@@ -115,8 +115,8 @@ impl Case<'_> {
             error: truth.apart(&of_segments(segments.iter().copied()), SAMPLES) / SIZE,
         };
         for (class, how) in [
-            ("class 9", Approximation::fewest(absolute)),
-            ("class 3", Approximation::within(absolute)),
+            ("class 9", Approximation::within(absolute)),
+            ("class 3", Approximation::quartics(absolute)),
         ] {
             let convert = || -> Result<ArcSpline, ph_curves::Error> {
                 approximate(black_box(curve), &how)?.spline.offset(DISTANCE)
@@ -194,7 +194,7 @@ impl Case<'_> {
         } else {
             DISTANCE
         };
-        let how = Approximation::fewest(absolute);
+        let how = Approximation::within(absolute);
         let ours = || -> Result<Vec<ArcSpline>, ph_curves::Error> {
             approximate(black_box(self.curve), &how)?
                 .spline
@@ -248,7 +248,7 @@ fn own_error(spline: &ArcSpline, offset: &ArcSpline) -> f64 {
 fn degenerate_row(timer: &Timer, input: &Degenerate, scale: f64) -> Value {
     let tolerance = 1e-6;
     let (size, distance) = (SIZE * scale, input.distance * scale);
-    let how = Approximation::fewest(tolerance * size);
+    let how = Approximation::within(tolerance * size);
     let control = input.control(scale);
     let ours = || -> Result<ArcSpline, ph_curves::Error> {
         let curve = CubicPath::new(vec![black_box(control)], false)?;
