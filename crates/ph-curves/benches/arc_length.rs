@@ -41,7 +41,13 @@ fn quintic_of_least_bending(bencher: Bencher<'_, '_>) {
 /// Time of a whole path with so many steps: the cost of a step does not depend on the feed.
 #[divan::bench(args = [100, 1_000, 10_000])]
 fn feed_steps(bencher: Bencher<'_, '_>, steps: u32) {
-    let points = [(0.0, 0.0), (30.0, 20.0), (60.0, 10.0), (90.0, 40.0), (60.0, 70.0)];
+    let points = [
+        (0.0, 0.0),
+        (30.0, 20.0),
+        (60.0, 10.0),
+        (90.0, 40.0),
+        (60.0, 70.0),
+    ];
     let ends = SplineEnds::Clamped {
         start_derivative: dvec2(30.0, 10.0),
         end_derivative: dvec2(-30.0, 20.0),
@@ -50,8 +56,11 @@ fn feed_steps(bencher: Bencher<'_, '_>, steps: u32) {
     let feed = FeedRate::Constant(path.length());
     let period = 1.0 / f64::from(steps);
     bencher.bench(|| {
-        FeedInterpolator::try_new(black_box(&path), feed, period)
-            .map(|points| points.map(|point| point.length_error.abs()).fold(0.0, f64::max))
+        FeedInterpolator::try_new(black_box(&path), feed, period).map(|points| {
+            points
+                .map(|point| point.length_error.abs())
+                .fold(0.0, f64::max)
+        })
     });
 }
 

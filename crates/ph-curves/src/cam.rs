@@ -67,6 +67,18 @@ impl HarmonicLift {
     }
 }
 
+impl HarmonicLift {
+    /// The lift without its even harmonics: the nearest motion that a cam of constant width can follow, whose width is
+    /// twice the mean. It changes the motion, and so has to be asked for.
+    #[must_use]
+    pub fn antisymmetric(mut self) -> Self {
+        for even in self.harmonics.iter_mut().skip(1).step_by(2) {
+            *even = (0.0, 0.0);
+        }
+        self
+    }
+}
+
 impl Lift for HarmonicLift {
     fn jet(&self, angle: f64) -> [f64; 3] {
         let mut jet = [self.mean, 0.0, 0.0];
@@ -101,6 +113,27 @@ impl<L: Lift> Lift for Antisymmetric<L> {
 }
 
 /// A cam in a frame with two parallel flat sides: an oval of constant width whose rotation moves the frame as given.
+///
+/// ```
+/// use ph_curves::{Cam, Error, HarmonicLift};
+///
+/// // The motion as measured: 48 samples over one turn, in millimetres, with some noise.
+/// let samples: Vec<f64> = (0..48)
+///     .map(|i| {
+///         let angle = std::f64::consts::TAU * f64::from(i) / 48.0;
+///         20.0 + 1.2 * (3.0 * angle).cos() + 0.01 * (17.0 * angle).sin().signum()
+///     })
+///     .collect();
+/// let lift = HarmonicLift::fit(&samples, 5)?;
+///
+/// // No cam follows it exactly: the lift and its half turn do not add up everywhere ...
+/// assert!(matches!(Cam::try_new(&lift, 12), Err(Error::NotAntisymmetric { .. })));
+/// // ... but one follows the part that can be followed, and says how well.
+/// let cam = Cam::try_new(&lift.antisymmetric(), 12)?;
+/// assert!((cam.width - 40.0).abs() < 0.01 && cam.least_radius > 0.0);
+/// assert!(cam.error_at_samples(&samples) < 0.02);
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cam {
     /// The profile, rational PH arcs of class 5, G2, with its centre of rotation at the origin.
@@ -168,6 +201,19 @@ impl Cam {
             lift_error,
             least_radius,
         })
+    }
+}
+
+impl Cam {
+    /// The largest difference between the lift that the profile produces and samples at equal steps over one turn.
+    #[must_use]
+    pub fn error_at_samples(&self, samples: &[f64]) -> f64 {
+        let step = TAU / samples.len() as f64;
+        samples
+            .iter()
+            .enumerate()
+            .map(|(i, lift)| (self.profile.contact(step * i as f64).support - lift).abs())
+            .fold(0.0, f64::max)
     }
 }
 
@@ -270,6 +316,36 @@ mod tests {
             Err(Error::NonFinite { .. })
         ));
         assert!(matches!(Cam::try_new(&lift, 1), Err(Error::TooFew { .. })));
+    }
+
+    #[test]
+    fn noisy_samples_are_refused_with_their_reason_and_followed_on_request() {
+        let noisy = |height: f64| -> Vec<f64> {
+            (0..64)
+                .map(|i| {
+                    let angle = TAU * f64::from(i) / 64.0;
+                    5.0 + height * (3.0 * angle).cos() + 1e-3 * (7.3 * f64::from(i)).sin()
+                })
+                .collect()
+        };
+        let samples = noisy(0.3);
+        let lift = HarmonicLift::fit(&samples, 5).unwrap();
+        match Cam::try_new(&lift, 12) {
+            Err(Error::NotAntisymmetric { defect, .. }) => assert!(defect.abs() < 2e-3),
+            other => panic!("{other:?}"),
+        }
+        let cam = Cam::try_new(&lift.antisymmetric(), 12).unwrap();
+        assert!(
+            cam.error_at_samples(&samples) < 2e-3,
+            "{}",
+            cam.error_at_samples(&samples)
+        );
+        // Radius 5 - 8 * 0.7 < 0.
+        let sharp = HarmonicLift::fit(&noisy(0.7), 5).unwrap().antisymmetric();
+        assert!(matches!(
+            Cam::try_new(&sharp, 12),
+            Err(Error::NotConvex { radius, .. }) if radius < -0.4
+        ));
     }
 
     #[test]

@@ -14,7 +14,8 @@
 //!
 //! These are the rational Pythagorean-hodograph (PH) curves. [`PhArc`] is one of them in this complex form; its lowest
 //! class, [`TQuartic`] (Tschirnhausen's quartic), has strictly monotone curvature and is the involute of a
-//! Tschirnhausen cubic ([`TCubic`]).
+//! Tschirnhausen cubic ([`TCubic`]). [`InflectedArc`] runs through such an arc by the root of its parameter, and so begins
+//! in an inflection.
 //!
 //! ```
 //! use ph_curves::{Approximation, CubicPath, approximate, glam::dvec2};
@@ -37,9 +38,10 @@
 //! | for | types |
 //! |---|---|
 //! | lines and their envelopes | [`Line`], [`DualCurve`] (Bézier and Farin lines), [`PottmannForm`], [`Contact`] |
-//! | one PH arc | [`PhArc`] of any class, [`TQuartic`], [`G1Ends`] (between two tangents), [`G2Pair`] (between two [`CurvatureElement`]s) |
+//! | one PH arc | [`PhArc`] of any class, [`InflectedArc`], [`TQuartic`], [`G1Ends`] (between two tangents), [`G2Pair`] (between two [`CurvatureElement`]s) |
 //! | polynomial PH curves | [`TCubic`], [`PolynomialPh`], [`Hermite`] quintics, [`PhSpline`], [`ArcLength`], [`FeedInterpolator`] |
-//! | approximation and offsets | [`approximate`], [`PlaneCurve`], [`CubicPath`], [`ArcSpline`] with [`ArcSpline::trimmed_offset`] |
+//! | curves to approximate | [`PlaneCurve`], [`CubicPath`], [`RationalPath`] |
+//! | approximation and offsets | [`approximate`], [`Approximation`], [`ArcSpline`] with [`ArcSpline::trimmed_offset`] |
 //! | constant width | [`EvolutePolygon`], [`Rosette`], [`interpolate_constant_width`], [`Cam`] |
 //! | Minkowski geometry | [`MinkowskiPlane`], [`Indicatrix`], [`IsoperimetricArc`] |
 //! | space | [`SpatialPh`], [`SpatialHermite`], [`RationalFrameQuintic`], [`rotation_minimising_frames`] |
@@ -58,7 +60,10 @@
 //!
 //! # Left open
 //!
-//! * An arc of class 3 cannot have an inflection: splines are G1 there, which is counted and reported. (A PH quintic can.)
+//! * An arc of class 3 cannot have an inflection: splines of them are G1 there, which is counted and reported.
+//! * The error of an approximation is measured at samples, with a factor for the peaks between them; it is not certified.
+//!   A certified bound needs the difference of two supports over a whole piece, and the parameters of the two curves are
+//!   joined by a square root.
 //! * Trimming reports crossings, not mere contacts; the offset of a spline at a distance at which two branches just touch is
 //!   cut on one side of the contact or not at all.
 //! * Existence of a crossing is decided by Newton's iteration to rounding; its uniqueness and the absence of others are
