@@ -8,8 +8,8 @@ use std::f64::consts::{PI, TAU};
 
 use anyhow::{Context as _, Result};
 use geodesic::{
-    GeodesicLoop as Loop, LoopFinder, Mesh as Surface, Straightest, SurfacePoint, TorusClasses,
-    shapes,
+    GeodesicLoop as Loop, LoopFinder, Mesh as Surface, Straightest, SubdivisionSurface,
+    SurfacePoint, TorusClasses, closed_torus_geodesic, shapes,
 };
 use glam::{DVec2, DVec3};
 
@@ -68,10 +68,13 @@ impl GeodesicLoop {
                 tight.certify(&mesh)?.is_geodesic(),
                 "the loop is not a geodesic"
             );
-            let (constant, length) = self.closed_geodesic(f64::from(p), f64::from(q));
-            errors.push((tight.length() / length - 1.0).abs());
+            let smooth = closed_torus_geodesic(self.major, self.minor, p, q)?;
+            errors.push((tight.length() / smooth.length - 1.0).abs());
             lengths.push(tight.length());
-            spread = spread.max(clairaut_deviation(tight.path().positions(), constant));
+            spread = spread.max(clairaut_deviation(
+                tight.path().positions(),
+                smooth.clairaut,
+            ));
             scene.add(
                 slanted_line(p, q, |u, v| self.point(u, v)),
                 Material::matte(INK),
@@ -104,31 +107,6 @@ impl GeodesicLoop {
             // A little inside the curves drawn on it.
             (self.point(u, v) - 0.004 * self.minor * normal, normal)
         })
-    }
-
-    /// Clairaut's constant and the length of the closed geodesic that turns `p` times along the parallels and `q` times
-    /// around the tube. The integrands are periodic, so that the trapezoidal rule converges geometrically.
-    fn closed_geodesic(&self, p: f64, q: f64) -> (f64, f64) {
-        let nodes = 4096;
-        let integral = |f: &dyn Fn(f64) -> f64| -> f64 {
-            let rho =
-                |k: u32| self.major + self.minor * (TAU * f64::from(k) / f64::from(nodes)).cos();
-            (0..nodes).map(|k| f(rho(k))).sum::<f64>() * TAU / f64::from(nodes)
-        };
-        let turn = |c: f64| integral(&|rho| c * self.minor / (rho * (rho * rho - c * c).sqrt()));
-        let (mut low, mut high) = (0.0, self.major - self.minor);
-        for _ in 0..80 {
-            let middle = 0.5 * (low + high);
-            if q * turn(middle) < TAU * p {
-                low = middle
-            } else {
-                high = middle
-            }
-        }
-        (
-            low,
-            q * integral(&|rho| self.minor * rho / (rho * rho - low * low).sqrt()),
-        )
     }
 }
 
@@ -187,44 +165,103 @@ fn lopsided(u: f64, v: f64) -> DVec3 {
     )
 }
 
-fn lopsided_mesh(around: u32, tube: u32) -> Result<Surface> {
-    let grid = shapes::torus(2.0, 0.7, around, tube)?;
+/// Catmull and Clark's surface of a coarse net of that ring.
+fn lopsided_surface(around: u32, tube: u32) -> Result<SubdivisionSurface> {
     let angle = |k: u32, n: u32| TAU * f64::from(k) / f64::from(n);
-    let positions: Vec<DVec3> = (0..around * tube)
-        .map(|k| lopsided(angle(k % around, around), angle(k / around, tube)))
-        .collect();
-    Ok(Surface::new(&positions, grid.faces())?)
+    let (mut positions, mut quads) = (Vec::new(), Vec::new());
+    for j in 0..tube {
+        for i in 0..around {
+            positions.push(lopsided(angle(i, around), angle(j, tube)));
+            let vertex = |i: u32, j: u32| j % tube * around + i % around;
+            quads.push([(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| vertex(i, j)));
+        }
+    }
+    let surface = SubdivisionSurface::catmull_clark(&positions, &quads)?;
+    Ok(surface.with_vertices_on_limit(true)?)
 }
 
-/// Loops on the lopsided ring, level by level.
+/// The closed curve of slope q/p on the net, as points of its mesh: quadrilateral `k` consists of the triangles `2 k`, on
+/// the side of its second corner, and `2 k + 1`.
+fn slanted_on_net(around: u32, tube: u32, [p, q]: [u32; 2], steps: u32) -> Vec<SurfacePoint> {
+    (0..steps)
+        .map(|k| {
+            let place = |turns: u32, count: u32| {
+                let t = f64::from(turns * count) * (f64::from(k) + 0.31) / f64::from(steps);
+                (t.floor() as u32 % count, t.fract())
+            };
+            let ((i, s), (j, t)) = (place(p, around), place(q, tube));
+            let quad = j * around + i;
+            let (face, barycentric) = if s >= t {
+                (2 * quad, [1.0 - s, s - t, t])
+            } else {
+                (2 * quad + 1, [1.0 - t, s, t - s])
+            };
+            SurfacePoint::Face { face, barycentric }
+        })
+        .collect()
+}
+
+/// A closed curve on the ring: where it began, carried along, and what it is tightened to on each level.
+struct Winding {
+    class: [u32; 2],
+    initial: Vec<SurfacePoint>,
+    tight: Vec<SurfacePoint>,
+}
+
+/// Loops on the lopsided ring, carried from level to level of its subdivision.
 fn ventricle(context: &mut Context) -> Result<()> {
-    let levels = context.pick(4, 3);
-    let (mut turning, mut lengths) = (Vec::new(), Vec::new());
-    let mut scene = Scene::new();
-    let smooth = lopsided_mesh(240, 120)?;
-    scene.add(
-        Mesh::smooth(smooth.positions().to_vec(), smooth.faces().to_vec()),
-        Material::matte(MIST),
-    )?;
+    let levels = context.pick(5, 4);
+    let (around, tube) = (14, 8);
+    let mut surface = lopsided_surface(around, tube)?;
+    let mut windings = [[1, 1], [1, 2]].map(|class| Winding {
+        class,
+        initial: slanted_on_net(around, tube, class, 600),
+        tight: slanted_on_net(around, tube, class, 4 * (class[0] + class[1])),
+    });
+    let (mut turning, mut lengths, mut loops) = (Vec::new(), Vec::new(), Vec::new());
     for level in 0..levels {
-        let (around, tube) = (24 << level, 12 << level);
-        let mesh = lopsided_mesh(around, tube)?;
+        if level > 0 {
+            for points in windings
+                .iter_mut()
+                .flat_map(|w| [&mut w.initial, &mut w.tight])
+            {
+                for point in points.iter_mut() {
+                    *point = surface.carry(*point)?;
+                }
+            }
+            surface = surface.refined()?;
+        }
         let mut worst = 0.0_f64;
-        for ((p, q), color) in [(1, 1), (1, 2)].into_iter().zip([ORANGE, BLUE]) {
-            let initial = slanted(around, tube, p, q);
-            let tight = LoopFinder::new(&mesh).tighten(&initial)?;
+        lengths.clear();
+        loops.clear();
+        for winding in &mut windings {
+            let tight = LoopFinder::new(surface.mesh()).tighten(&winding.tight)?;
             anyhow::ensure!(
-                tight.certify(&mesh)?.is_geodesic(),
-                "the loop is not a geodesic"
+                tight.certify(surface.mesh())?.is_geodesic(),
+                "the loop {:?} is not a geodesic",
+                winding.class
             );
             worst = worst.max(largest_turn(&tight));
-            if level + 1 == levels {
-                lengths.push(tight.length());
-                scene.add(slanted_line(p, q, lopsided), Material::matte(INK))?;
-                scene.add(ring(&tight, 0.022), Material::glossy(color))?;
-            }
+            winding.tight = tight.path().points()[1..].to_vec();
+            lengths.push(tight.length());
+            loops.push(tight);
         }
         turning.push(worst);
+    }
+    let mesh = surface.mesh();
+    let mut scene = Scene::new();
+    scene.add(
+        Mesh::smooth(mesh.positions().to_vec(), mesh.faces().to_vec()),
+        Material::matte(MIST),
+    )?;
+    for ((winding, tight), color) in windings.iter().zip(&loops).zip([ORANGE, BLUE]) {
+        let initial: Vec<DVec3> = winding
+            .initial
+            .iter()
+            .map(|point| mesh.point_position(*point))
+            .collect::<Result<_, _>>()?;
+        scene.add(Mesh::tube(&initial, 0.009, true), Material::matte(INK))?;
+        scene.add(ring(tight, 0.022), Material::glossy(color))?;
     }
     let falls = turning.windows(2).all(|pair| pair[1] < pair[0]);
     context.number("ventricle_loop_lengths", lengths, Target::Free);
@@ -236,7 +273,8 @@ fn ventricle(context: &mut Context) -> Result<()> {
         "render-ventricle",
         &scene,
         &camera,
-        "Two closed geodesics on a model of the right ventricle; dark: the closed curves that they were tightened from.",
+        "Two closed geodesics on a subdivision surface, a model of the right ventricle; dark: the closed curves that they were \
+         tightened from.",
         "A lopsided ring with an orange and a blue closed curve around it.",
     )?;
     let mut plot = Plot::chart("", "vertices around", "largest turn between segments (rad)");
@@ -244,7 +282,7 @@ fn ventricle(context: &mut Context) -> Result<()> {
     let series: Vec<DVec2> = turning
         .iter()
         .enumerate()
-        .map(|(level, &turn)| DVec2::new(f64::from(24 << level), turn))
+        .map(|(level, &turn)| DVec2::new(f64::from(around << level), turn))
         .collect();
     plot.polyline(&series, BLUE.line().width(2.0));
     plot.points(&series, Marker::Disc, BLUE.fill());
