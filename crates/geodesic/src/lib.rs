@@ -41,6 +41,9 @@
 //! | its faces laid flat | [`Unfolding`] |
 //! | from a point in a direction | [`Straightest`], [`Trace`] |
 //! | closed geodesics; through a point; of every class on a torus | [`LoopFinder`], [`GeodesicLoop`], [`TorusClasses`] |
+//! | a Bézier or NURBS surface as a sequence of polyhedra, and paths carried over them | [`PatchLevels`], [`Convergence`] |
+//! | Loop's and Catmull and Clark's surfaces likewise | [`SubdivisionSurface`] |
+//! | any smooth surface; geodesics from a point and between two | [`SmoothSurface`], [`trace_smooth`], [`geodesic_between`] |
 //! | simple meshes to begin with | [`shapes`] |
 //!
 //! # What is guaranteed
@@ -117,8 +120,8 @@ pub use straightest::{AtBoundary, Stop, Straightest, Trace};
 pub use strip::Side;
 pub use surface::{
     ClosedTorusGeodesic, Convergence, LevelPath, PatchLevels, Scheme, SmoothGeodesic,
-    SmoothSurface, SubdivisionSurface, SurfaceJet, SurfaceRay, TorusSurface, closed_torus_geodesic,
-    geodesic_between, trace_smooth, trace_smooth_points,
+    SmoothSurface, SubdivisionSurface, SurfaceJet, SurfaceOfRevolution, SurfaceRay, TorusSurface,
+    closed_torus_geodesic, geodesic_between, trace_smooth, trace_smooth_points,
 };
 pub use surface_point::{OUTSIDE, SNAP, SurfacePoint};
 pub use torus::TorusClasses;
