@@ -37,6 +37,8 @@
 //! | a point at a vertex, on an edge or in a face | [`SurfacePoint`] |
 //! | the mesh point closest to a point in space | [`ClosestPoint`] |
 //! | locally shortest paths, query after query | [`PathFinder`], [`Start`] |
+//! | exact distances from points to everything, isolines, globally shortest paths | [`Sweep`], [`DistanceField`], [`Isoline`], [`Globally`] |
+//! | many queries on all cores | [`shortest_paths`], [`exact_distances`], [`exact_distances_to_all`] |
 //! | a path: polyline, faces, pivots with side angles, certificate | [`GeodesicPath`], [`Pivot`], [`Certificate`] |
 //! | its faces laid flat | [`Unfolding`] |
 //! | from a point in a direction | [`Straightest`], [`Trace`] |
@@ -105,7 +107,7 @@ pub use batch::{exact_distances, exact_distances_to_all, shortest_paths};
 #[cfg(feature = "closest-point")]
 pub use closest::{Closest, ClosestPoint};
 pub use error::Error;
-pub use exact::{DistanceField, Globally, Sweep};
+pub use exact::{DistanceField, Globally, Isoline, Sweep};
 pub use finder::{PathFinder, Start};
 pub use loops::{DirectedLoop, GeodesicLoop, LoopFinder};
 #[cfg(feature = "triangulate")]

@@ -53,7 +53,9 @@ impl<'m> DistanceField<'_, 'm> {
         let point = self.sweep.mesh.canonical(point)?;
         Ok(self
             .nearest(point)
-            .map_or(f64::INFINITY, |(distance, _)| distance))
+            .map(|(distance, _)| distance)
+            .filter(|&distance| distance <= self.sweep.limit())
+            .unwrap_or(f64::INFINITY))
     }
 
     /// The distance of a canonical point, and the way by which it comes.

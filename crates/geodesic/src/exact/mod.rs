@@ -25,6 +25,7 @@
 mod enter;
 mod face;
 mod field;
+mod isoline;
 mod radiate;
 mod sweep;
 #[cfg(test)]
@@ -33,6 +34,7 @@ mod trace;
 mod window;
 
 pub use field::DistanceField;
+pub use isoline::Isoline;
 pub use sweep::Sweep;
 pub use trace::Globally;
 pub(crate) use trace::join_around_vertices;

@@ -350,12 +350,19 @@ impl<'m> Sweep<'m> {
         entrance.waiting += 1;
     }
 
+    /// Distances up to here are known.
+    pub(super) fn limit(&self) -> f64 {
+        match self.purpose {
+            Purpose::Field { limit } => limit,
+            Purpose::Vertices | Purpose::Target(_) => f64::INFINITY,
+        }
+    }
+
     /// Works off the queue, up to a distance or until nothing in it can bring the target nearer.
     fn run(&mut self) {
         let mut limit = match self.purpose {
-            Purpose::Vertices => f64::INFINITY,
-            Purpose::Field { limit } => limit,
             Purpose::Target(point) => self.known_distance(point),
+            _ => self.limit(),
         };
         while let Some(Reverse((bits, item))) = self.queue.pop() {
             let key = f64::from_bits(bits);

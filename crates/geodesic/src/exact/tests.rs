@@ -4,7 +4,7 @@ use crate::{Mesh, SurfacePoint, Sweep};
 use crate::{PathFinder, shapes};
 
 /// A sphere with bumps and hollows: vertices of both signs of curvature.
-fn bumpy(level: u32) -> Mesh {
+pub(super) fn bumpy(level: u32) -> Mesh {
     let sphere = shapes::sphere(level).unwrap();
     let bump = |p: &glam::DVec3| {
         *p * (1.0 + 0.25 * (5.0 * p.x).sin() * (4.0 * p.y + 1.0).sin() * (6.0 * p.z).cos())
