@@ -280,6 +280,12 @@ pub enum Error {
         /// Second parameter.
         v: f64,
     },
+    /// A tolerance that is not a positive number.
+    #[error("the tolerance {tolerance} is not a positive number")]
+    InvalidTolerance {
+        /// The tolerance.
+        tolerance: f64,
+    },
     /// A smooth surface has no tangent plane at these parameters, or a direction vanishes there.
     #[error("the surface has no tangent plane at ({u}, {v}), or the direction vanishes there")]
     NoTangentPlane {

@@ -9,6 +9,7 @@
 
 use glam::{DMat2, DVec2, DVec3};
 
+use super::convergence::check_tolerance;
 use super::smooth::SmoothSurface;
 use super::trace::{Arrival, SurfaceRay, flow, trace_smooth_points};
 use crate::Error;
@@ -109,12 +110,13 @@ impl SmoothGeodesic {
 /// # Errors
 ///
 /// [`Error::NotConverged`] if no geodesic is found, or if the second end is conjugate to the first;
-/// [`Error::NoTangentPlane`] where the surface has none; [`Error::SamePoint`] for a way without length.
+/// [`Error::NoTangentPlane`] where the surface has none; [`Error::InvalidTolerance`]; [`Error::SamePoint`] for a way without length.
 pub fn geodesic_between(
     surface: &impl SmoothSurface,
     way: &[DVec2],
     tolerance: f64,
 ) -> Result<SmoothGeodesic, Error> {
+    check_tolerance(tolerance)?;
     let mut answer = Err(Error::NotConverged { updates: 0 });
     for count in STRETCHES {
         answer = Shooting::begin(surface, way, count)
@@ -170,7 +172,7 @@ impl Shooting {
                 v: lost.y,
             });
         }
-        if !(length > 0.0) {
+        if length <= 0.0 {
             return Err(Error::SamePoint);
         }
         let place = |distance: f64| {
@@ -325,7 +327,8 @@ fn correct(misses: &[Miss]) -> Option<Correction> {
         } = misses[k].neighbours;
         (from_offset.x, from_turn.x, from_turn.y)
     };
-    if (0..count).any(|k| !(fields(k).1 > 0.0)) {
+    let before_conjugate = (0..count).all(|k| fields(k).1 > 0.0);
+    if !before_conjugate {
         return None;
     }
     // Elimination downwards, without exchanges: the pivots tell the index.

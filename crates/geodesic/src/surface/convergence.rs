@@ -1,5 +1,7 @@
 //! How far a sequence of lengths is from its limit.
 
+use crate::Error;
+
 /// The lengths of a path on polyhedra that converge to a surface, each with edges half as long as the one before.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -54,6 +56,14 @@ impl Convergence {
             [.., before, last] => Some(last + (last - before) / (SECOND_ORDER - 1.0)),
             _ => None,
         }
+    }
+}
+
+pub(super) fn check_tolerance(tolerance: f64) -> Result<(), Error> {
+    if tolerance > 0.0 {
+        Ok(())
+    } else {
+        Err(Error::InvalidTolerance { tolerance })
     }
 }
 

@@ -5,7 +5,7 @@ use bezier_mass::{BSplineSurface, BezierPatch, MassPoint};
 use glam::{DVec2, DVec3};
 
 use super::carry::{sequence, tighten_through};
-use super::convergence::Convergence;
+use super::convergence::{Convergence, check_tolerance};
 use super::grid::Grid;
 use super::net::{Axis, BezierNet};
 use crate::mesh::Mesh;
@@ -105,7 +105,7 @@ impl PatchLevels {
     ///
     /// # Errors
     ///
-    /// [`Error::TooLarge`] for a net beyond 16 million faces.
+    /// [`Error::TooLarge`] for a net beyond 4 million faces.
     pub fn subdivide(&mut self) -> Result<(), Error> {
         self.net.subdivide()
     }
@@ -142,19 +142,20 @@ impl PatchLevels {
     ///
     /// # Errors
     ///
-    /// As for [`PatchLevels::paths`]; [`Error::TooLarge`] if the tolerance asks for more faces than there may be.
+    /// As for [`PatchLevels::paths`]; [`Error::InvalidTolerance`]; [`Error::TooLarge`] if the
+    /// tolerance asks for more faces than there may be.
     pub fn path_within(
         mut self,
         from: DVec2,
         to: DVec2,
         tolerance: f64,
     ) -> Result<(LevelPath, Convergence), Error> {
+        check_tolerance(tolerance)?;
         let mut path = self.path_along(&[from, to])?;
         let mut convergence = Convergence {
             lengths: vec![path.length],
         };
-        // Not `error > tolerance`: a tolerance that is no number is never met, and ends in `TooLarge`.
-        while !(convergence.error() <= tolerance) {
+        while convergence.error() > tolerance {
             self.subdivide()?;
             path = self.path_along(&path.parameters)?;
             convergence.lengths.push(path.length);
@@ -362,6 +363,10 @@ mod tests {
         for to in [DVec2::new(1.1, 0.0), DVec2::NAN, DVec2::new(0.0, -1e-3)] {
             let answer = PatchLevels::new(&patch).paths(inside, to, 1);
             assert!(matches!(answer, Err(Error::OutsideDomain { .. })));
+        }
+        for tolerance in [0.0, -1.0, f64::NAN] {
+            let answer = PatchLevels::new(&patch).path_within(inside, DVec2::ONE, tolerance);
+            assert!(matches!(answer, Err(Error::InvalidTolerance { .. })));
         }
         let answer = PatchLevels::new(&patch).paths_along(&[inside], 1);
         assert_eq!(answer, Err(Error::ShortLoop { points: 1 }));

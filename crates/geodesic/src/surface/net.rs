@@ -103,8 +103,8 @@ pub(super) struct BezierNet {
     pub(super) axes: [Axis; 2],
 }
 
-/// A net never has more faces than this: some three gigabytes with the buffers of a query.
-const MOST_FACES: usize = 1 << 24;
+/// A net never has more faces than this: about a gigabyte with the buffers of a query.
+const MOST_FACES: usize = 1 << 22;
 
 impl BezierNet {
     pub(super) fn of_patch(patch: &BezierPatch<DVec3>) -> Self {

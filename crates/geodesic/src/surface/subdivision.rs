@@ -8,13 +8,13 @@
 use glam::{DMat2, DVec2, DVec3};
 
 use super::carry::sequence;
-use super::convergence::Convergence;
+use super::convergence::{Convergence, check_tolerance};
 use super::polyhedron::Polyhedron;
 use crate::mesh::Mesh;
 use crate::{Error, GeodesicPath, PathFinder, SurfacePoint};
 
-/// A polyhedron never has more triangles than this: some three gigabytes with the buffers of a query.
-const MOST_FACES: usize = 1 << 24;
+/// A polyhedron never has more triangles than this: about a gigabyte with the buffers of a query.
+const MOST_FACES: usize = 1 << 22;
 
 /// Parts of a segment shorter than this, of 1, do not lead through a triangle: the carried points are good to rounding.
 const SHORTEST_PART: f64 = 1e-9;
@@ -171,7 +171,7 @@ impl SubdivisionSurface {
     ///
     /// # Errors
     ///
-    /// [`Error::TooLarge`] beyond 16 million triangles; those of [`Mesh::new`] if vertices come to coincide.
+    /// [`Error::TooLarge`] beyond 4 million triangles; those of [`Mesh::new`] if vertices come to coincide.
     pub fn refined(&self) -> Result<Self, Error> {
         let (faces, polyhedron) = match self.scheme {
             Scheme::Loop => (
@@ -256,19 +256,20 @@ impl SubdivisionSurface {
     ///
     /// # Errors
     ///
-    /// As for [`SubdivisionSurface::paths`]; [`Error::TooLarge`] if the tolerance asks for more faces than there may be.
+    /// As for [`SubdivisionSurface::paths`]; [`Error::InvalidTolerance`]; [`Error::TooLarge`] if the
+    /// tolerance asks for more faces than there may be.
     pub fn path_within(
         &self,
         from: SurfacePoint,
         to: SurfacePoint,
         tolerance: f64,
     ) -> Result<(GeodesicPath, Convergence), Error> {
+        check_tolerance(tolerance)?;
         let mut carried = Carried::start(self, from, to)?;
         let mut convergence = Convergence {
             lengths: vec![carried.path.length()],
         };
-        // Not `error > tolerance`: a tolerance that is no number is never met, and ends in `TooLarge`.
-        while !(convergence.error() <= tolerance) {
+        while convergence.error() > tolerance {
             carried = carried.next()?;
             convergence.lengths.push(carried.path.length());
         }

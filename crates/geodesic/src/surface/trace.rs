@@ -2,6 +2,7 @@
 
 use glam::{DMat2, DVec2};
 
+use super::convergence::check_tolerance;
 use super::smooth::{SmoothSurface, SurfaceJet};
 use crate::Error;
 
@@ -34,7 +35,7 @@ const MOST_STEPS: usize = 1_000_000;
 /// # Errors
 ///
 /// [`Error::NoTangentPlane`] for a direction that vanishes on the surface, and where the surface has no tangent plane or
-/// is not finite; [`Error::InvalidLength`] for a length that is not finite or a tolerance that is not positive;
+/// is not finite; [`Error::InvalidLength`] for a length that is not finite; [`Error::InvalidTolerance`];
 /// [`Error::NotConverged`] after a million steps.
 pub fn trace_smooth(
     surface: &impl SmoothSurface,
@@ -82,7 +83,8 @@ pub(super) fn flow(
     length: f64,
     tolerance: f64,
 ) -> Result<Arrival, Error> {
-    if !(length.is_finite() && tolerance > 0.0) {
+    check_tolerance(tolerance)?;
+    if !length.is_finite() {
         return Err(Error::InvalidLength { length });
     }
     let lost = |uv: DVec2| Error::NoTangentPlane { u: uv.x, v: uv.y };
