@@ -296,8 +296,8 @@ fn draw_patches(context: &mut Context) -> Result<()> {
         let [low, high] = shell.bounds().ok_or_else(|| anyhow!("an empty surface"))?;
         let scale = 1.0 / (high - low).max_element();
         let middle = 0.5 * (low + high);
-        // The printed patch is on the far left of its torus.
-        let spin = if index == 0 { 0.3 * TAU } else { 0.0 };
+        // Two patches are on the far side of their surfaces.
+        let spin = TAU * [0.3, 0.0, 0.5, 0.0][index];
         let turn = DQuat::from_rotation_x(0.35) * DQuat::from_rotation_z(spin);
         let place = dvec3(1.25 * (index % 2) as f64, 0.0, -1.02 * (index / 2) as f64);
         let map = DAffine3::from_scale_rotation_translation(
@@ -307,16 +307,17 @@ fn draw_patches(context: &mut Context) -> Result<()> {
         );
         let thickness = 0.008 / scale;
         let point = |u: f64, v: f64| exhibit.net.point(u, v).unwrap_or_default();
-        let patch = Mesh::grid(steps / 2, steps / 2, |u, v| {
-            let jet = exhibit.net.jet(u, v);
-            let along = |partial: MassPoint<DVec3>| {
-                (partial.weighted - partial.weight * point(u, v)) / jet.value.weight
-            };
-            (
-                point(u, v),
-                along(jet.du).cross(along(jet.dv)).normalize_or(DVec3::Z),
-            )
-        });
+        // A thin plate about the patch, so that it does not flicker with the surface that it is part of.
+        let plate = Mesh::merged([0.5, -0.5].map(|side| {
+            Mesh::grid(steps / 2, steps / 2, |u, v| {
+                let jet = exhibit.net.jet(u, v);
+                let along = |partial: MassPoint<DVec3>| {
+                    (partial.weighted - partial.weight * point(u, v)) / jet.value.weight
+                };
+                let normal = along(jet.du).cross(along(jet.dv)).normalize_or(DVec3::Z);
+                (point(u, v) + side * thickness * normal, normal)
+            })
+        }));
         let mut net = Mesh::default();
         let controls = exhibit
             .net
@@ -339,7 +340,7 @@ fn draw_patches(context: &mut Context) -> Result<()> {
             Material::glass(Color::hex(0x8fb6d8)),
         )?;
         scene.add(
-            patch.transformed(map),
+            plate.transformed(map),
             Material::glossy(Color::hex(0xf0c46a)),
         )?;
         scene.add(net.transformed(map), Material::matte(INK))?;
