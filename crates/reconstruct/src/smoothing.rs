@@ -54,57 +54,52 @@ type Vector8 = SVector<f64, 8>;
 type Derivatives = [DVec3; 5];
 const ORDERS: [[usize; 2]; 5] = [[1, 0], [0, 1], [2, 0], [1, 1], [0, 2]];
 
-/// Quadrature over the unit square with everything that depends on the boundary sampled.
-struct Grid<'a, S> {
-    patch: &'a CoonsPatch<S>,
-    lines: Vec<([Line; 2], f64)>,
-    /// For every node and free parameter, the part of the basis surface along `u` and along `v`.
-    movers: Vec<[[[DVec3; 3]; 8]; 2]>,
-    directions: [DVec3; 8],
+/// A node of the quadrature over the unit square: derivatives of `R_0` and of the basis surfaces, and its weight.
+struct Node {
+    patch: Derivatives,
+    basis: [Derivatives; 8],
+    weight: f64,
 }
 
-impl<'a, S: Strip> Grid<'a, S> {
-    fn new(patch: &'a CoonsPatch<S>) -> Self {
-        let rectangle = patch.rectangle();
-        let rule = gauss(NODES);
-        let lines: Vec<([Line; 2], f64)> = rule
-            .iter()
-            .map(|(t, w)| ([patch.line(false, *t), patch.line(true, *t)], *w))
-            .collect();
-        let directions = from_fn(|k| rectangle.free_direction(k).1);
-        let movers = lines
-            .iter()
-            .map(|(pair, _)| {
-                [0, 1].map(|axis: usize| from_fn(|k| mover(rectangle, &pair[axis], axis, k)))
-            })
-            .collect();
-        Self {
-            patch,
-            lines,
-            movers,
-            directions,
+/// The nodes for a patch `R_0`; everything that an energy asks of the boundary curves is sampled here, once.
+fn nodes<S: Strip>(patch: &CoonsPatch<S>) -> Vec<Node> {
+    let rectangle = patch.rectangle();
+    let lines = lines(patch);
+    let directions: [DVec3; 8] = from_fn(|k| rectangle.free_direction(k).1);
+    // For every line and free parameter, the part of the basis surface along `u` and along `v`.
+    let movers: Vec<[[[DVec3; 3]; 8]; 2]> = lines
+        .iter()
+        .map(|(pair, _)| {
+            [0, 1].map(|axis: usize| from_fn(|k| mover(rectangle, &pair[axis], axis, k)))
+        })
+        .collect();
+    let mut nodes = Vec::with_capacity(lines.len() * lines.len());
+    for ((u, wu), along_u) in lines.iter().zip(&movers) {
+        for ((v, wv), along_v) in lines.iter().zip(&movers) {
+            let (u, v) = (&u[0], &v[1]);
+            let basis = from_fn(|k| {
+                let [i, j] = CORNERS[k / 2];
+                ORDERS.map(|[a, b]| {
+                    let (hu, hv) = (u.functions[a][1 + i], v.functions[b][1 + j]);
+                    along_u[0][k][a] * hv + along_v[1][k][b] * hu - directions[k] * (hu * hv)
+                })
+            });
+            nodes.push(Node {
+                patch: ORDERS.map(|[a, b]| patch.derivative(u, v, a, b)),
+                basis,
+                weight: wu * wv,
+            });
         }
     }
+    nodes
+}
 
-    /// Calls `visit` with the derivatives of `R_0 + sum w B` and of the basis at every node, and its weight.
-    fn visit(&self, mut visit: impl FnMut(&Derivatives, &[Derivatives; 8], f64)) {
-        for (i, (u, wu)) in self.lines.iter().enumerate() {
-            for (j, (v, wv)) in self.lines.iter().enumerate() {
-                let (u, v) = (&u[0], &v[1]);
-                let patch = ORDERS.map(|[a, b]| self.patch.derivative(u, v, a, b));
-                let basis: [Derivatives; 8] = from_fn(|k| {
-                    let [ci, cj] = CORNERS[k / 2];
-                    let (ku, kv) = (1 + ci, 1 + cj);
-                    ORDERS.map(|[a, b]| {
-                        let (hu, hv) = (u.functions[a][ku], v.functions[b][kv]);
-                        self.movers[i][0][k][a] * hv + self.movers[j][1][k][b] * hu
-                            - self.directions[k] * (hu * hv)
-                    })
-                });
-                visit(&patch, &basis, wu * wv);
-            }
-        }
-    }
+/// The parameter lines through the Gauss points, along `u` and along `v`, with their weights.
+fn lines<S: Strip>(patch: &CoonsPatch<S>) -> Vec<([Line; 2], f64)> {
+    gauss(NODES)
+        .iter()
+        .map(|(t, w)| ([patch.line(false, *t), patch.line(true, *t)], *w))
+        .collect()
 }
 
 /// The change of the transverse field along the boundary of a corner, at a line, when a free parameter of that
@@ -158,11 +153,10 @@ impl<S: Strip> Rectangle<S> {
     /// # Errors
     /// [`Error::DegenerateEnergy`].
     pub fn least_energy(&self, criterion: Criterion) -> Result<Smoothed<S>, Error> {
-        let flat = self.patch_unchecked([[0.0; 2]; 4])?;
-        let grid = Grid::new(&flat);
+        let nodes = nodes(&self.patch_unchecked([[0.0; 2]; 4])?);
         let (w, energy, energy_at_zero, matrix) = match criterion {
-            Criterion::SpeedVariation => least_speed_variation(&grid)?,
-            _ => quadratic_minimum(&grid, criterion)?,
+            Criterion::SpeedVariation => least_speed_variation(&nodes)?,
+            _ => quadratic_minimum(&nodes, criterion)?,
         };
         let mut eigenvalues: [f64; 8] = matrix.symmetric_eigenvalues().into();
         eigenvalues.sort_by(f64::total_cmp);
@@ -180,11 +174,7 @@ impl<S: Strip> CoonsPatch<S> {
     /// The energy of this patch under a criterion.
     #[must_use]
     pub fn energy(&self, criterion: Criterion) -> f64 {
-        let rule = gauss(NODES);
-        let lines: Vec<([Line; 2], f64)> = rule
-            .iter()
-            .map(|(t, w)| ([self.line(false, *t), self.line(true, *t)], *w))
-            .collect();
+        let lines = lines(self);
         let mut sum = 0.0;
         for ([u, _], wu) in &lines {
             for ([_, v], wv) in &lines {
@@ -207,14 +197,15 @@ impl<S: Strip> CoonsPatch<S> {
 }
 
 /// `G_kl = int <D B_k, D B_l>`, `g_k = int <D R_0, D B_k>`, `w = -G^-1 g`, `E = E_0 + g . w`.
-fn quadratic_minimum<S: Strip>(
-    grid: &Grid<'_, S>,
+fn quadratic_minimum(
+    nodes: &[Node],
     criterion: Criterion,
 ) -> Result<(Vector8, f64, f64, Matrix8), Error> {
     let (mut matrix, mut gradient, mut at_zero) = (Matrix8::zeros(), Vector8::zeros(), 0.0);
-    grid.visit(|patch, basis, weight| {
-        let d0 = criterion.integrand(patch);
-        let d: [[DVec3; 3]; 8] = from_fn(|k| criterion.integrand(&basis[k]));
+    for node in nodes {
+        let weight = node.weight;
+        let d0 = criterion.integrand(&node.patch);
+        let d: [[DVec3; 3]; 8] = from_fn(|k| criterion.integrand(&node.basis[k]));
         let dot = |a: &[DVec3; 3], b: &[DVec3; 3]| a[0].dot(b[0]) + a[1].dot(b[1]) + a[2].dot(b[2]);
         at_zero += weight * dot(&d0, &d0);
         for k in 0..8 {
@@ -223,7 +214,7 @@ fn quadratic_minimum<S: Strip>(
                 matrix[(k, l)] += weight * dot(&d[k], &d[l]);
             }
         }
-    });
+    }
     matrix.fill_upper_triangle_with_lower_triangle();
     let w = solve(&matrix, &-gradient)?;
     Ok((w, at_zero + gradient.dot(&w), at_zero, matrix))
@@ -248,13 +239,11 @@ fn speed_residuals(d: &Derivatives) -> [f64; 2] {
 }
 
 /// Gauss-Newton with Levenberg's damping, from the Dirichlet minimum.
-fn least_speed_variation<S: Strip>(
-    grid: &Grid<'_, S>,
-) -> Result<(Vector8, f64, f64, Matrix8), Error> {
-    let (start, ..) = quadratic_minimum(grid, Criterion::Dirichlet)?;
-    let (at_zero, ..) = speed_model(grid, &Vector8::zeros());
+fn least_speed_variation(nodes: &[Node]) -> Result<(Vector8, f64, f64, Matrix8), Error> {
+    let (start, ..) = quadratic_minimum(nodes, Criterion::Dirichlet)?;
+    let (at_zero, ..) = speed_model(nodes, &Vector8::zeros());
     let mut w = start;
-    let (mut energy, mut gradient, mut matrix) = speed_model(grid, &w);
+    let (mut energy, mut gradient, mut matrix) = speed_model(nodes, &w);
     let mut damping = 1e-6;
     for _ in 0..STEPS {
         let scale = matrix.trace() / 8.0;
@@ -262,7 +251,7 @@ fn least_speed_variation<S: Strip>(
             &(matrix + Matrix8::identity() * (damping * scale)),
             &-gradient,
         )?;
-        let (trial, g, m) = speed_model(grid, &(w + step));
+        let (trial, g, m) = speed_model(nodes, &(w + step));
         if trial <= energy {
             let gain = energy - trial;
             w += step;
@@ -282,23 +271,34 @@ fn least_speed_variation<S: Strip>(
 }
 
 /// The speed variation at `w`, half its gradient, and the Gauss-Newton matrix.
-fn speed_model<S: Strip>(grid: &Grid<'_, S>, w: &Vector8) -> (f64, Vector8, Matrix8) {
+fn speed_model(nodes: &[Node], w: &Vector8) -> (f64, Vector8, Matrix8) {
     let (mut energy, mut gradient, mut matrix) = (0.0, Vector8::zeros(), Matrix8::zeros());
-    grid.visit(|patch, basis, weight| {
-        let d: Derivatives = from_fn(|o| (0..8).fold(patch[o], |sum, k| sum + basis[k][o] * w[k]));
-        let residuals = speed_residuals(&d);
-        for (n, [first, second]) in [[0, 2], [1, 4]].into_iter().enumerate() {
-            let length = d[first].length();
-            let unit = d[first] / length;
-            let slopes = Vector8::from_fn(|k, _| {
-                let (b1, b2) = (basis[k][first], basis[k][second]);
-                unit.dot(b2) + (b1.dot(d[second]) - unit.dot(b1) * unit.dot(d[second])) / length
-            });
-            energy += weight * residuals[n] * residuals[n];
-            gradient += slopes * (weight * residuals[n]);
-            matrix.ger(weight, &slopes, &slopes, 1.0);
+    for Node {
+        patch,
+        basis,
+        weight,
+    } in nodes
+    {
+        for [first, second] in [[0, 2], [1, 4]] {
+            let [velocity, acceleration] = [first, second]
+                .map(|order| (0..8).fold(patch[order], |sum, k| sum + basis[k][order] * w[k]));
+            let length = velocity.length();
+            let unit = velocity / length;
+            let residual = unit.dot(acceleration);
+            let turning = (acceleration - unit * residual) / length;
+            let slopes: [f64; 8] =
+                from_fn(|k| unit.dot(basis[k][second]) + turning.dot(basis[k][first]));
+            energy += weight * residual * residual;
+            for k in 0..8 {
+                let weighted = weight * slopes[k];
+                gradient[k] += weighted * residual;
+                for l in 0..=k {
+                    matrix[(k, l)] += weighted * slopes[l];
+                }
+            }
         }
-    });
+    }
+    matrix.fill_upper_triangle_with_lower_triangle();
     (energy, gradient, matrix)
 }
 

@@ -8,9 +8,12 @@ use glam::{Vec3A, Vec4};
 use obvhs::bvh2::Bvh2;
 use obvhs::triangle::Triangle;
 
-/// How far outside a triangle's edge a ray may pass and still hit, in barycentric coordinates. Two
-/// triangles reckon their common edge with different roundings; without it pinholes open there.
-const EDGE_SLACK: f32 = 1e-6;
+/// How far outside a triangle's edge a ray may pass and still hit, in the unit of the scene's ball. Two triangles
+/// reckon their common edge with different roundings, of the size of the last bit of the way from the camera (some
+/// units) to them; without it pinholes open there.
+const EDGE_SLACK: f32 = 8.0 * f32::EPSILON;
+/// The most of it in barycentric coordinates, for slivers.
+const MOST_SLACK: f32 = 1e-2;
 /// Boxes are left later by this factor, which covers the rounding of the three products.
 const BOX_SLACK: f32 = 1.0 + 4.0 * f32::EPSILON;
 /// A child that is no node: the number that follows is that of a leaf.
@@ -34,6 +37,8 @@ struct Leaf {
     corner: [Vec4; 3],
     edge1: [Vec4; 3],
     edge2: [Vec4; 3],
+    /// [`EDGE_SLACK`] in barycentric coordinates of each.
+    slack: Vec4,
     triangles: [u32; 4],
 }
 
@@ -268,6 +273,7 @@ impl Leaf {
             corner: zero,
             edge1: zero,
             edge2: zero,
+            slack: Vec4::ZERO,
             triangles: [NONE; 4],
         };
         for (lane, &number) in numbers.iter().take(4).enumerate() {
@@ -278,6 +284,9 @@ impl Leaf {
                 leaf.edge1[axis][lane] = edge1[axis];
                 leaf.edge2[axis][lane] = edge2[axis];
             }
+            let longest = edge1.length().max(edge2.length());
+            let height = edge1.cross(edge2).length() / longest.max((edge2 - edge1).length());
+            leaf.slack[lane] = (EDGE_SLACK / height).min(MOST_SLACK);
             leaf.triangles[lane] = number;
         }
         leaf
@@ -294,11 +303,10 @@ impl Leaf {
         let moment = cross(to_origin, self.edge1);
         let third = dot(ray.direction, moment) * inverse;
         let distance = dot(self.edge2, moment) * inverse;
-        let slack = Vec4::splat(-EDGE_SLACK);
         // Comparisons with NaN (a ray in the triangle's plane) are false: a miss.
-        let hit = second.cmpge(slack)
-            & third.cmpge(slack)
-            & (second + third).cmple(Vec4::splat(1.0 + EDGE_SLACK))
+        let hit = second.cmpge(-self.slack)
+            & third.cmpge(-self.slack)
+            & (second + third).cmple(1.0 + self.slack)
             & distance.cmpge(Vec4::splat(nearest))
             & distance.cmple(Vec4::splat(farthest));
         (distance, [second, third], hit.bitmask())
