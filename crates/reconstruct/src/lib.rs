@@ -90,17 +90,24 @@
 struct ReadmeDoctests;
 
 mod bezier_patch;
-mod boundary;
+mod closed_spatial;
 mod conditions;
 mod coons;
+mod corner;
 mod curve;
+mod degree7;
+mod end_field;
 mod error;
 mod frame;
 mod hermite;
+mod hermite_arc;
 mod integrate;
 mod network;
 mod planar;
+mod plate;
 mod quadrature;
+mod rational_quintic;
+mod ribbon_curve;
 mod sampled;
 mod sensor;
 mod series;
@@ -110,6 +117,7 @@ mod sphere;
 mod spline;
 mod stream;
 mod strip;
+mod strip_chain;
 mod surface;
 mod tangent;
 #[cfg(test)]
@@ -118,17 +126,22 @@ mod triangle;
 mod two_curves;
 
 pub use bezier_patch::BezierStrip;
-pub use boundary::{
-    CornerData, Corners, Degree7Shape, EndInvariants, ThirdDerivative, degree7_boundaries,
-    quintic_end_invariants, quintic_weights, rational_quintic_boundaries,
-};
+pub use closed_spatial::ClosedSpatialRibbon;
 pub use conditions::{BoundaryReport, CONDITION_TOLERANCE, Corner, Violation};
 pub use coons::{CoonsPatch, Rectangle, Twists, check_rectangle};
+pub use corner::{CornerData, Corners};
 pub use curve::{AnalyticCurve, Curve, Reversed};
+pub use degree7::{Degree7Shape, ThirdDerivative, degree7_boundaries};
+pub use end_field::{EndField, ScalarFunction};
 pub use error::Error;
 pub use frame::{DarbouxFrame, FrenetFrame, GeodesicCheck, crossing_residual};
+pub use hermite_arc::{Freedom, HermiteArc, LeastMagnitudes, LocalCriterion};
 pub use network::{Crossing, RibbonNetwork};
 pub use planar::{ClosedPlanarRibbon, PlanarRibbon};
+pub use rational_quintic::{
+    EndInvariants, quintic_end_invariants, quintic_weights, rational_quintic_boundaries,
+};
+pub use ribbon_curve::RibbonCurve;
 pub use sampled::SampledCurve;
 pub use sensor::{
     Calibration, ReadingFault, Sensor, SensorKind, WorldFields, inclinations,
@@ -136,10 +149,11 @@ pub use sensor::{
 };
 pub use series::{Series, VectorSeries};
 pub use smoothing::{Criterion, Smoothed};
-pub use spatial::{ClosedSpatialRibbon, RibbonCurve, SpatialRibbon, TangentMethod};
+pub use spatial::{SpatialRibbon, TangentMethod};
 pub use spline::{CubicSpline, EndCondition};
 pub use stream::RibbonStream;
 pub use strip::{GeodesicStrip, Strip, StripSample};
+pub use strip_chain::StripChain;
 pub use surface::{
     Curvatures, Surface, Tessellation, boundary_geodesic_curvature, geodesic_curvature, tessellate,
     tessellate_triangle,
@@ -149,10 +163,7 @@ pub use triangle::{
     SmoothedTriangle, Triangle, TrianglePatch, TriangleTwists, barycentric_gradients,
     check_triangle,
 };
-pub use two_curves::{
-    EndField, Freedom, HermiteArc, LeastMagnitudes, LocalCriterion, ScalarFunction, StripChain,
-    TwoCurveSurface,
-};
+pub use two_curves::TwoCurveSurface;
 
 pub use bezier_mass; // the types of Bézier curves and patches appear in our signatures
 pub use glam; // so do its vectors

@@ -4,7 +4,7 @@
 //! are necessary", and their lengths are fixed. Here the tangents are turned as little as possible (least squares)
 //! such that every crossing closes exactly; the arc lengths of sensors and crossings stay what they are.
 
-use crate::boundary::CornerData;
+use crate::CornerData;
 use crate::spatial::{SpatialRibbon, outer};
 use crate::{Error, RibbonCurve};
 use glam::{DMat3, DVec3};

@@ -3,11 +3,11 @@
 //! Section 3.2 of the thesis chapter, "Spatial curves": the tangent runs on the unit sphere; interpolate it
 //! there, integrate its coordinates.
 
-use crate::integrate::{ACCURACY, gauss_step, integrate, positions};
-use crate::planar::{CLOSED, CLOSING_STEPS, cardinal_splines};
+use crate::integrate::{ACCURACY, integrate, positions};
+use crate::planar::cardinal_splines;
 use crate::sphere::SphereSpline;
 use crate::spline::{check_increasing, interval};
-use crate::{CubicSpline, Curve, EndCondition, Error, VectorSeries};
+use crate::{CubicSpline, EndCondition, Error};
 use glam::{DMat3, DVec3};
 
 /// Neighbouring tangents with a smaller scalar product have no shortest arc between them.
@@ -30,7 +30,7 @@ pub enum TangentMethod {
 
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-enum Tangent {
+pub(crate) enum Tangent {
     Projected(CubicSpline<DVec3>),
     Spherical(SphereSpline),
 }
@@ -59,9 +59,9 @@ impl Tangent {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SpatialRibbon {
-    knots: Vec<f64>,
+    pub(crate) knots: Vec<f64>,
     tangents: Vec<DVec3>,
-    tangent: Tangent,
+    pub(crate) tangent: Tangent,
     end: EndCondition,
     points: Vec<DVec3>,
     accuracy: f64,
@@ -257,197 +257,6 @@ impl SpatialRibbon {
     }
 }
 
-/// A stretch of a ribbon as a curve over `[0, 1]`, with exact derivatives (projected method).
-///
-/// The tangent is a normalised piecewise cubic: derivatives of the position up to the third are continuous,
-/// the fourth jumps at the sensors.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RibbonCurve {
-    ribbon: SpatialRibbon,
-    start: f64,
-    length: f64,
-    origin: DVec3,
-}
-
-impl RibbonCurve {
-    /// The stretch `[start, end]` of arc length, with the ribbon's own start put at `origin`.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] unless `start < end` lie on the ribbon; [`Error::Unsupported`] for a ribbon by
-    /// the spherical spline.
-    pub fn new(ribbon: SpatialRibbon, start: f64, end: f64, origin: DVec3) -> Result<Self, Error> {
-        let [first, last] = [ribbon.knots[0], ribbon.knots[ribbon.knots.len() - 1]];
-        if !(first <= start && start < end && end <= last) {
-            return Err(Error::OutOfRange {
-                what: "arc length",
-                value: if start < first { start } else { end },
-                range: [first, last],
-            });
-        }
-        if matches!(ribbon.tangent, Tangent::Spherical(_)) {
-            return Err(Error::Unsupported {
-                what: "derivatives of the spline on the sphere",
-            });
-        }
-        Ok(Self {
-            ribbon,
-            start,
-            length: end - start,
-            origin,
-        })
-    }
-}
-
-impl Curve for RibbonCurve {
-    fn series(&self, t: f64) -> VectorSeries {
-        let s = self.start + t * self.length;
-        let Tangent::Projected(spline) = &self.ribbon.tangent else {
-            return VectorSeries::constant(DVec3::NAN);
-        };
-        let piece = spline.piece(interval(&self.ribbon.knots, s));
-        let third = (piece.moments[1] - piece.moments[0]) / piece.length;
-        let cubic = VectorSeries([
-            piece.value(s),
-            piece.derivative(s),
-            piece.second_derivative(s) / 2.0,
-            third / 6.0,
-            DVec3::ZERO,
-        ]);
-        let tangent = cubic.normalised();
-        let point = self.ribbon.point(s).map_or(DVec3::NAN, |p| self.origin + p);
-        let mut scale = 1.0;
-        VectorSeries(core::array::from_fn(|k| {
-            if k == 0 {
-                return point;
-            }
-            scale *= self.length;
-            tangent.0[k - 1] * (scale / k as f64)
-        }))
-    }
-}
-
-/// A closed space ribbon: the tangents adjusted as little as possible so that the curve closes.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct ClosedSpatialRibbon {
-    spline: CubicSpline<DVec3>,
-    points: Vec<DVec3>,
-    closing_error: DVec3,
-    largest_adjustment: f64,
-}
-
-impl ClosedSpatialRibbon {
-    /// The closed ribbon of the given `length` with tangents at arc lengths `s` in `[s[0], s[0] + length)`.
-    ///
-    /// The tangents become a periodic spline, normalised; the closing error is distributed over them with
-    /// least squared change, keeping the length, until the curve closes to `1e-12` of it.
-    ///
-    /// # Errors
-    /// As [`SpatialRibbon::new`]; [`Error::NoConvergence`] when no small change closes the curve.
-    pub fn new(s: &[f64], tangents: &[DVec3], length: f64) -> Result<Self, Error> {
-        check_increasing(s)?;
-        let n = s.len();
-        if tangents.len() != n {
-            return Err(Error::LengthMismatch {
-                what: "tangents",
-                expected: n,
-                got: tangents.len(),
-            });
-        }
-        let mut knots = s.to_vec();
-        knots.push(s[0] + length);
-        check_increasing(&knots)?;
-        let mut values = tangents.to_vec();
-        values.extend(tangents.first());
-        let measured = unit_tangents(&values)?;
-        let cardinals: Vec<CubicSpline<f64>> = (0..n)
-            .map(|j| {
-                CubicSpline::periodic(
-                    &knots,
-                    &(0..=n).map(|i| f64::from(i % n == j)).collect::<Vec<_>>(),
-                )
-            })
-            .collect::<Result<_, _>>()?;
-        let mut values = measured.clone();
-        let mut closing_error = None;
-        for _ in 0..CLOSING_STEPS {
-            let spline = projected(CubicSpline::periodic(&knots, &values)?)?;
-            let direction = |s: f64| spline.value(s).normalize_or_zero();
-            let (points, _) = positions(&knots, &direction, ACCURACY * length)?;
-            let gap = points[n];
-            let first_gap = *closing_error.get_or_insert(gap);
-            if gap.length() <= CLOSED * length {
-                let largest_adjustment = values
-                    .iter()
-                    .zip(&measured)
-                    .fold(0.0, |m: f64, (a, b)| m.max(a.angle_between(*b)));
-                return Ok(Self {
-                    spline,
-                    points,
-                    closing_error: first_gap,
-                    largest_adjustment,
-                });
-            }
-            let slopes: Vec<DMat3> = cardinals
-                .iter()
-                .map(|cardinal| {
-                    let turn = |s: f64| {
-                        let value = spline.value(s);
-                        let unit = value.normalize_or_zero();
-                        let factor = cardinal.value(s) / value.length();
-                        ((DMat3::IDENTITY - outer(unit, unit)) * factor).to_cols_array()
-                    };
-                    let total = knots.windows(2).fold([0.0; 9], |sum, pair| {
-                        let step = gauss_step(&turn, pair[0], pair[1]);
-                        core::array::from_fn(|i| sum[i] + step[i])
-                    });
-                    DMat3::from_cols_array(&total)
-                })
-                .collect();
-            let gram = slopes
-                .iter()
-                .fold(DMat3::ZERO, |sum, m| sum + *m * m.transpose());
-            // A straight ribbon cannot close to first order: no tangent moves the end along itself.
-            if gram.determinant() <= 1e-12 * length.powi(6) / (n as f64).powi(3) {
-                break;
-            }
-            let multiplier = gram.inverse() * gap;
-            for (value, slope) in values.iter_mut().zip(&slopes) {
-                *value = (*value - slope.transpose() * multiplier).normalize_or_zero();
-            }
-            values[n] = values[0];
-        }
-        Err(Error::NoConvergence {
-            what: "closing the ribbon",
-            steps: CLOSING_STEPS,
-        })
-    }
-
-    /// The gap that the measured tangents left, before the adjustment.
-    #[must_use]
-    pub fn closing_error(&self) -> DVec3 {
-        self.closing_error
-    }
-
-    /// The largest angle by which a tangent was turned, radians.
-    #[must_use]
-    pub fn largest_adjustment(&self) -> f64 {
-        self.largest_adjustment
-    }
-
-    /// The positions at the data; the last repeats the first up to the closing tolerance.
-    #[must_use]
-    pub fn points(&self) -> &[DVec3] {
-        &self.points
-    }
-
-    /// The unit tangent at `s`.
-    #[must_use]
-    pub fn tangent(&self, s: f64) -> DVec3 {
-        self.spline.value(s).normalize_or_zero()
-    }
-}
-
 /// The matrix `a b^T`.
 pub(crate) fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
@@ -485,7 +294,7 @@ pub(crate) fn unit_tangents(tangents: &[DVec3]) -> Result<Vec<DVec3>, Error> {
 const CHORDS: usize = 8;
 
 /// Accepts a spline of unit vectors that keeps away from zero: no chord of it comes near.
-fn projected(spline: CubicSpline<DVec3>) -> Result<CubicSpline<DVec3>, Error> {
+pub(crate) fn projected(spline: CubicSpline<DVec3>) -> Result<CubicSpline<DVec3>, Error> {
     for pair in spline.knots().windows(2) {
         let mut before = spline.value(pair[0]);
         for k in 1..=CHORDS {
@@ -623,52 +432,6 @@ mod tests {
             (trace(measured) / trace(predicted) - 1.0).abs() < 0.1,
             "{measured} {predicted}"
         );
-    }
-
-    #[test]
-    fn a_closed_ribbon_closes() {
-        let n = 36;
-        let length = 5.0;
-        let s: Vec<f64> = (0..n)
-            .map(|i| length * f64::from(i) / f64::from(n))
-            .collect();
-        let mut noise = Noise::new(5);
-        let tangents: Vec<DVec3> = s
-            .iter()
-            .map(|s| {
-                let t = s / length * core::f64::consts::TAU;
-                DVec3::new(-t.sin(), t.cos(), 0.4 * (2.0 * t).cos())
-                    + noise.gaussian_vector() * 0.02
-            })
-            .collect();
-        let ribbon = ClosedSpatialRibbon::new(&s, &tangents, length).unwrap();
-        assert!(ribbon.closing_error().length() > 1e-4);
-        assert!(ribbon.points()[n as usize].length() < 5e-12);
-        assert!(ribbon.largest_adjustment() < 0.2);
-        let straight = ClosedSpatialRibbon::new(&s, &vec![DVec3::X; n as usize], length);
-        assert!(matches!(straight, Err(Error::NoConvergence { .. })));
-    }
-
-    #[test]
-    fn a_stretch_is_a_curve_with_its_derivatives() {
-        let (s, tangents) = data(16);
-        let ribbon = SpatialRibbon::new(&s, &tangents).unwrap();
-        let curve = RibbonCurve::new(ribbon.clone(), 0.5, 3.1, DVec3::ONE).unwrap();
-        let r = curve.series(0.37);
-        let h = 1e-4;
-        let [before, after] = [curve.series(0.37 - h), curve.series(0.37 + h)];
-        for order in 0..4 {
-            let difference = (after.derivative_at(order) - before.derivative_at(order)) / (2.0 * h);
-            assert!(
-                (difference - r.derivative_at(order + 1)).length() < 1e-4,
-                "{order}"
-            );
-        }
-        assert!(
-            (r.derivative_at(2) / (2.6 * 2.6) - ribbon.curvature_vector(0.5 + 0.37 * 2.6)).length()
-                < 1e-12
-        );
-        assert!(RibbonCurve::new(ribbon, -1.0, 2.0, DVec3::ZERO).is_err());
     }
 
     #[test]

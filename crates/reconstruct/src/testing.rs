@@ -1,5 +1,6 @@
-//! Seeded noise for the tests of this crate.
+//! What the tests of several modules share: seeded noise, strips along helices.
 
+use crate::{AnalyticCurve, GeodesicStrip, Surface, geodesic_curvature};
 use glam::DVec3;
 
 /// A small deterministic generator (SplitMix64).
@@ -28,4 +29,21 @@ impl Noise {
     pub(crate) fn gaussian_vector(&mut self) -> DVec3 {
         DVec3::new(self.gaussian(), self.gaussian(), self.gaussian())
     }
+}
+
+/// A geodesic of the unit cylinder.
+pub(crate) fn helix(pitch: f64, z: f64) -> GeodesicStrip {
+    GeodesicStrip::new(AnalyticCurve::new(move |t| {
+        [t.cos(), t.sin(), t * pitch + z]
+    }))
+    .unwrap()
+}
+
+/// Largest geodesic curvature of the edges `v = 0` and `v = 1`.
+pub(crate) fn boundary(surface: &impl Surface) -> f64 {
+    let places = (0..=20).map(|i| f64::from(i) / 20.0);
+    places
+        .flat_map(|u| [0.0, 1.0].map(|v| surface.partials(u, v)))
+        .map(|at| geodesic_curvature(at.du, at.duu, at.du.cross(at.dv)).abs())
+        .fold(0.0, f64::max)
 }
