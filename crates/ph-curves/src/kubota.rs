@@ -108,6 +108,10 @@ fn convolve<A, B>(a: &[A], b: &[B], times: impl Fn(&A, &B) -> DVec2) -> Vec<DVec
 /// A polynomial `a + i b` of this degree with `x' b = y' a`, if there is one: the kernel of the system's matrix.
 fn cofactors(z: &[DVec2], degree: usize) -> Option<Vec<DVec2>> {
     let count = degree + 1;
+    if count == z.len() {
+        // No common factor: the cofactors are x' and y' themselves, however close to one another their roots are.
+        return Some(z.to_vec());
+    }
     let rows = z.len() + degree;
     let mut matrix = vec![vec![0.0; 2 * count]; rows];
     for (i, z) in z.iter().enumerate() {

@@ -18,7 +18,7 @@ use ph_curves::{
 
 use crate::color::{BLUE, GREEN, GREY, INK, ORANGE, VERMILION};
 use crate::demo::{Context, Demo};
-use crate::figure::{Corner, Figure, Marker, Plot, Side};
+use crate::figure::{Figure, Marker, Plot, Side};
 use crate::report::Target;
 
 #[derive(clap::Args, Debug)]
@@ -57,7 +57,7 @@ impl Demo for DualControl {
         ];
         context.figure(
             "figure",
-            &Figure::grid(4, plots).aspect(0.95),
+            &Figure::grid(3, plots).aspect(0.95),
             "A dual Bézier curve of class 3 with its Farin lines; Tschirnhausen cubics in triangles; two admissible curvature \
              elements and the quartics between them; Theorem 4; an oval of constant width from a triangle; the cubics of a \
              pentagon; a circle by Bézier lines of class 2 and 6; width functions.",
@@ -180,7 +180,6 @@ fn dual_plot(curve: &DualCurve) -> Result<Plot> {
         .map(|x| dvec2(x.y, x.z) / x.x)
         .collect();
     plot.points(&vertices, Marker::Ring, INK.line());
-    plot.legend(Corner::BottomLeft);
     Ok(plot)
 }
 
@@ -216,7 +215,7 @@ fn triangle_plot() -> Result<Plot> {
 }
 
 fn element_plot(pair: &G2Pair) -> Result<Plot> {
-    let mut plot = Plot::geometry("elements, evolute, quartics");
+    let mut plot = Plot::geometry("elements and evolute");
     let [start, end] = elements()?;
     for (element, name, side) in [(start, "P₀", Side::Right), (end, "P₁", Side::Above)] {
         plot.circle(
@@ -302,7 +301,7 @@ fn pentagon_plot() -> Result<Plot> {
         plot.point(
             cubic.points()[0],
             ["P₁", "P₂", "P₃", "P₄", "P₅"][k % 5],
-            Side::Right,
+            Side::AboveRight,
             INK.line(),
         );
     }
@@ -347,7 +346,7 @@ fn circle_plot() -> Result<Plot> {
 }
 
 fn width_plot() -> Result<Plot> {
-    let mut plot = Plot::chart("width against direction", "normal angle ψ", "width");
+    let mut plot = Plot::chart("widths", "normal angle ψ", "width");
     let (polygon, width) = oval()?;
     let rosette = polygon.rosette(width)?;
     let (a, b) = (0.62 * width, 0.4 * width);

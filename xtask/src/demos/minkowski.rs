@@ -134,9 +134,10 @@ impl<S: Support> Study<S> {
 
         let mut frames = Plot::geometry("frames");
         frames.trace(|t| curve(t)[0], 0.0, SPAN, INK.line().width(2.0));
+        // Turned by an eighth, the curve does not face a sharp vertex of the second indicatrix, where radii are large.
+        let turned = |t: f64| curve(t).map(|v| DVec2::from_angle(0.25 * PI).rotate(v));
         let mut bent = Plot::geometry("evolute and involute");
-        bent.view(DVec2::new(-1.2, -2.4), DVec2::new(5.6, 1.7));
-        bent.trace(|t| curve(t)[0], 0.0, SPAN, INK.line().width(2.0));
+        bent.trace(|t| turned(t)[0], 0.0, SPAN, INK.line().width(2.0));
         for t in [0.25, 0.8, 1.35, 1.9] {
             let [point, derivative, _] = curve(t);
             let frame = plane.frame(derivative)?;
@@ -144,16 +145,16 @@ impl<S: Support> Study<S> {
             frames.arrow(point, point + 0.7 * frame.normal, ORANGE.line());
         }
         let evolute = |t: f64| {
-            let [point, derivative, second] = curve(t);
+            let [point, derivative, second] = turned(t);
             plane
                 .evolute_point(point, derivative, second)
                 .unwrap_or(DVec2::NAN)
         };
         bent.trace(evolute, 0.45, SPAN - 0.15, GREEN.line());
-        let length = |t: f64| 0.4 + plane.arc_length(0.0, t, 2, |t| curve(t)[1]);
+        let length = |t: f64| 0.4 + plane.arc_length(0.0, t, 2, |t| turned(t)[1]);
         let involute = |t: f64| {
             plane
-                .involute_point(curve(t)[0], curve(t)[1], length(t))
+                .involute_point(turned(t)[0], turned(t)[1], length(t))
                 .unwrap_or(DVec2::NAN)
         };
         bent.trace(involute, 0.0, 1.1, VERMILION.line());
