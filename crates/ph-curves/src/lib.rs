@@ -89,6 +89,7 @@ mod cam;
 mod class3;
 mod complex;
 mod constant_width;
+mod crossing;
 mod cubic_path;
 mod curvature_element;
 mod dual;
@@ -125,6 +126,7 @@ pub use class3::{G1Ends, LineElement};
 pub use constant_width::{
     EvolutePolygon, SupportJet, antipodal_arc, hermite_arc, interpolate_constant_width,
 };
+pub use crossing::Crossing;
 pub use cubic_path::CubicPath;
 pub use curvature_element::{CurvatureElement, EvoluteTriangle, G2Pair, similarity_centre};
 pub use dual::DualCurve;
@@ -151,4 +153,3 @@ pub use spatial::{
     euler_rodrigues_tube, rotation_minimising_frames, rotation_minimising_tube,
 };
 pub use t_cubic::TCubic;
-pub use trim::Crossing;

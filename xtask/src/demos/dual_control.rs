@@ -301,7 +301,7 @@ fn pentagon_plot() -> Result<Plot> {
         plot.point(
             cubic.points()[0],
             ["P₁", "P₂", "P₃", "P₄", "P₅"][k % 5],
-            Side::AboveRight,
+            if k == 0 { Side::BelowLeft } else { Side::Right },
             INK.line(),
         );
     }

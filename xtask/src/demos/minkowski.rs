@@ -40,11 +40,13 @@ impl Demo for Minkowski {
             plane: MinkowskiPlane::new(Indicatrix::try_new(ellipse)?),
             arc: ellipse_arc,
             name: "ellipse",
+            turn: 0.0,
         };
         let second = Study {
             plane: MinkowskiPlane::new(Indicatrix::try_new(bumped)?),
             arc: bumped_arc,
             name: "class 8",
+            turn: 0.25 * PI,
         };
         let ovals = constant_width_arcs(bumped.dual()?.arcs(), 4.0, &moves())?;
 
@@ -88,6 +90,9 @@ struct Study<S> {
     plane: MinkowskiPlane<S>,
     arc: DualCurve,
     name: &'static str,
+    /// The angle by which the curve is turned where its evolute is drawn: facing a sharp vertex of the indicatrix, its radii
+    /// of curvature would be large.
+    turn: f64,
 }
 
 /// A curve that is drawn, with its first two derivatives.
@@ -134,8 +139,7 @@ impl<S: Support> Study<S> {
 
         let mut frames = Plot::geometry("frames");
         frames.trace(|t| curve(t)[0], 0.0, SPAN, INK.line().width(2.0));
-        // Turned by an eighth, the curve does not face a sharp vertex of the second indicatrix, where radii are large.
-        let turned = |t: f64| curve(t).map(|v| DVec2::from_angle(0.25 * PI).rotate(v));
+        let turned = |t: f64| curve(t).map(|v| DVec2::from_angle(self.turn).rotate(v));
         let mut bent = Plot::geometry("evolute and involute");
         bent.trace(|t| turned(t)[0], 0.0, SPAN, INK.line().width(2.0));
         for t in [0.25, 0.8, 1.35, 1.9] {

@@ -1,19 +1,14 @@
 //! The complex form of a rational Pythagorean-hodograph arc: two spinors and a support polynomial.
 
+mod measure;
+mod motion;
+
 use bezier_mass::{BezierCurve, bernstein};
 use glam::{DVec2, DVec3};
 
-use crate::arc_length::power_coefficients;
-use crate::complex::{conj, sqrt, square};
+use crate::Error;
+use crate::complex::{conj, square};
 use crate::dual::rational_curve;
-use crate::quadrature::integrate;
-use crate::{Error, Line};
-
-/// Largest `|w1 - w0|^2 / min(|w0|, |w1|)^2` for which the arc length is integrated by Gauss's rule.
-///
-/// The closed form divides by `|w1 - w0|^2` and loses that many digits; the poles of the integrand
-/// are `|w0| / |w1 - w0| >= 2` away from the arc, where sixteen nodes reach rounding (7.9^-32).
-const NEARLY_PROPORTIONAL: f64 = 0.25;
 
 /// How far outside `[0, 1]` the parameter of an end normal may fall by rounding.
 const PARAMETER_ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -372,263 +367,6 @@ impl<const N: usize> PhArc<N> {
     pub fn to_points(&self) -> Result<BezierCurve<DVec2>, Error> {
         rational_curve(&self.point_control())
     }
-
-    /// The arc moved by `vector`.
-    #[must_use]
-    pub fn translate(&self, vector: DVec2) -> Self {
-        let normals = self.control_normals();
-        Self {
-            g: std::array::from_fn(|k| self.g[k] + normals[k].dot(vector)),
-            ..*self
-        }
-    }
-
-    /// The arc turned about the origin by the argument of the unit complex number `turn`.
-    #[must_use]
-    pub fn rotate(&self, turn: DVec2) -> Self {
-        let half = sqrt(turn);
-        Self {
-            w0: half.rotate(self.w0),
-            w1: half.rotate(self.w1),
-            g: self.g,
-        }
-    }
-
-    /// The arc scaled about the origin by `factor` (a negative factor keeps the normals and turns the
-    /// arc inside out).
-    #[must_use]
-    pub fn scale(&self, factor: f64) -> Self {
-        Self {
-            g: self.g.map(|c| c * factor),
-            ..*self
-        }
-    }
-
-    /// The mirror image in a finite line: `w -> i nu conj(w)`, `g -> g - 2ck`. The turning changes sign.
-    ///
-    /// # Errors
-    /// [`Error::ZeroDirection`] if the mirror is the line at infinity.
-    pub fn reflect(&self, mirror: Line) -> Result<Self, Error> {
-        let c = mirror.support()?;
-        let nu = mirror.normal().normalize();
-        let normals = self.control_normals();
-        // The factor i nu conj(w) squares to -nu^2 conj(w^2) = n - 2<n, nu> nu.
-        let image = |w: DVec2| nu.perp().rotate(conj(w));
-        Ok(Self {
-            w0: image(self.w0),
-            w1: image(self.w1),
-            g: std::array::from_fn(|k| self.g[k] - 2.0 * c * normals[k].dot(nu)),
-        })
-    }
-
-    /// The same arc run backwards; the normals keep their directions.
-    #[must_use]
-    pub fn reverse(&self) -> Self {
-        let mut g = self.g;
-        g.reverse();
-        Self {
-            w0: self.w1,
-            w1: self.w0,
-            g,
-        }
-    }
-
-    /// The same points with opposite normals: supports and radii change sign.
-    #[must_use]
-    pub fn flip(&self) -> Self {
-        Self {
-            w0: self.w0.perp(),
-            w1: self.w1.perp(),
-            g: self.g.map(|c| -c),
-        }
-    }
-
-    /// The two parts at `t`, by de Casteljau's construction on `w` and `g`; both keep the scale.
-    ///
-    /// # Errors
-    /// [`Error::OutsideDomain`] unless `0 < t < 1`.
-    pub fn split(&self, t: f64) -> Result<(Self, Self), Error> {
-        if !(t > 0.0 && t < 1.0) {
-            return Err(Error::OutsideDomain {
-                value: t,
-                start: 0.0,
-                end: 1.0,
-            });
-        }
-        Ok(self.split_inside(t))
-    }
-
-    pub(crate) fn split_inside(&self, t: f64) -> (Self, Self) {
-        let mut right = self.g;
-        let left = std::array::from_fn(|level| {
-            if level > 0 {
-                for k in 0..N - level {
-                    right[k] += t * (right[k + 1] - right[k]);
-                }
-            }
-            right[0]
-        });
-        let w = self.spinor(t);
-        (
-            Self {
-                w0: self.w0,
-                w1: w,
-                g: left,
-            },
-            Self {
-                w0: w,
-                w1: self.w1,
-                g: right,
-            },
-        )
-    }
-
-    /// The part between two parameters `0 <= start < end <= 1`.
-    ///
-    /// # Errors
-    /// [`Error::OutsideDomain`] otherwise.
-    pub fn part(&self, start: f64, end: f64) -> Result<Self, Error> {
-        if !(start >= 0.0 && start < end) {
-            return Err(Error::OutsideDomain {
-                value: start,
-                start: 0.0,
-                end,
-            });
-        }
-        if end > 1.0 || end.is_nan() {
-            return Err(Error::OutsideDomain {
-                value: end,
-                start,
-                end: 1.0,
-            });
-        }
-        let tail = if start > 0.0 {
-            self.split_inside(start).1
-        } else {
-            *self
-        };
-        let end = (end - start) / (1.0 - start);
-        Ok(if end < 1.0 {
-            tail.split_inside(end).0
-        } else {
-            tail
-        })
-    }
-
-    /// `int R d psi`, the length with the sign of radius times turning: parts beyond a cusp count
-    /// negatively. In closed form, exact to rounding.
-    #[must_use]
-    pub fn signed_length(&self) -> f64 {
-        let dw = self.w1 - self.w0;
-        let slack = dw.length_squared() / self.w0.length_squared().min(self.w1.length_squared());
-        if slack <= NEARLY_PROPORTIONAL {
-            self.length_by_gauss()
-        } else {
-            self.length_by_division()
-        }
-    }
-
-    /// `2 kappa int R/q dt` by one Gauss rule.
-    fn length_by_gauss(&self) -> f64 {
-        let radius = self.radius_polynomial();
-        let rate = |t: f64| bernstein::evaluate(&radius, t) / self.spinor(t).length_squared();
-        2.0 * self.kappa() * integrate(0.0, 1.0, 1, rate)
-    }
-
-    /// The same from `R = A q + (b t + c)`: a polynomial, a logarithm and the angle h.
-    fn length_by_division(&self) -> f64 {
-        let mut remainder = power_coefficients(&self.radius_polynomial());
-        let dw = self.w1 - self.w0;
-        let (q0, q1, q2) = (
-            self.w0.length_squared(),
-            2.0 * self.w0.dot(dw),
-            dw.length_squared(),
-        );
-        let mut quotient_integral = 0.0;
-        for k in (2..N).rev() {
-            let a = remainder[k] / q2;
-            remainder[k - 1] -= a * q1;
-            remainder[k - 2] -= a * q0;
-            quotient_integral += a / (k - 1) as f64;
-        }
-        let (c, b) = (remainder[0], remainder[1]);
-        let logarithm = (self.w1.length_squared() / self.w0.length_squared()).ln();
-        let kappa = self.kappa();
-        let half_turning = 0.5 * self.turning();
-        2.0 * kappa * (quotient_integral + b / (2.0 * q2) * logarithm)
-            + 2.0 * (c - b * q1 / (2.0 * q2)) * half_turning
-    }
-
-    /// Arc length, the length of all parts: across a cusp both sides count positively. In closed form.
-    #[must_use]
-    pub fn length(&self) -> f64 {
-        let (mut rest, mut begin, mut length) = (*self, 0.0, 0.0);
-        for t in self.cusps() {
-            if t > begin && t < 1.0 {
-                let (before, after) = rest.split_inside((t - begin) / (1.0 - begin));
-                length += before.signed_length().abs();
-                (rest, begin) = (after, t);
-            }
-        }
-        length + rest.signed_length().abs()
-    }
-
-    /// Parameters in `[0, 1]` where the radius of curvature vanishes, in increasing order, isolated and certified
-    /// as roots of the radius polynomial; none for a point, where it vanishes everywhere.
-    #[must_use]
-    pub fn cusps(&self) -> Vec<f64> {
-        let radius = self.radius_polynomial();
-        let noise = self.radius_noise();
-        if radius.iter().all(|r| *r > 0.0)
-            || radius.iter().all(|r| *r < 0.0)
-            || radius.iter().all(|r| r.abs() <= noise)
-        {
-            return Vec::new();
-        }
-        variation::roots(&radius).map_or_else(
-            |_| Vec::new(),
-            |roots| roots.iter().map(|root| root.value()).collect(),
-        )
-    }
-
-    /// Parameters in `[0, 1]` of the points whose normal passes through `point`: the critical points of the distance,
-    /// isolated and certified as roots of a polynomial of degree `N`. None if every normal does (a circle about it).
-    #[must_use]
-    pub fn feet(&self, point: DVec2) -> Vec<f64> {
-        let normals = self.control_normals();
-        // The tangent at t is h/q away, h = <n, X> - g; critical where h' q - h q' = 0, of degree N.
-        let h: Vec<f64> = (0..N).map(|k| normals[k].dot(point) - self.g[k]).collect();
-        let q = self.normal_length();
-        let first = bernstein::product(&q, &bernstein::derivative(&h));
-        let second = bernstein::product(&bernstein::derivative(&q), &h);
-        let rate: Vec<f64> = first.iter().zip(&second).map(|(a, b)| a - b).collect();
-        let mut solver = variation::Solver::new().without_exact();
-        solver.roots(&rate).map_or_else(
-            |_| Vec::new(),
-            |roots| roots.iter().map(|root| root.value()).collect(),
-        )
-    }
-
-    /// Rounding error of a coefficient of the radius polynomial: some ulps of its largest term.
-    pub(crate) fn radius_noise(&self) -> f64 {
-        let largest = self.g.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
-        let kappa = self.kappa();
-        let m = Self::CLASS as f64;
-        let length = self.w0.length_squared().max(self.w1.length_squared());
-        2.0 * m * m * f64::EPSILON * largest * length / (kappa * kappa)
-    }
-
-    /// Arc length from the start to parameter `t`, signed as [`PhArc::signed_length`].
-    ///
-    /// # Errors
-    /// [`Error::OutsideDomain`] unless `0 <= t <= 1`.
-    pub fn signed_length_to(&self, t: f64) -> Result<f64, Error> {
-        if t == 0.0 {
-            Ok(0.0)
-        } else {
-            Ok(self.part(0.0, t)?.signed_length())
-        }
-    }
 }
 
 /// The form in which an arc is serialized.
@@ -672,7 +410,7 @@ mod tests {
     use std::f64::consts::PI;
 
     /// An arc of class 5 with no symmetry, its normals turning by `turning`.
-    fn arc(turning: f64) -> PhArc<6> {
+    pub(super) fn arc(turning: f64) -> PhArc<6> {
         let w0 = DVec2::from_angle(0.3) * 1.3;
         let w1 = DVec2::from_angle(0.3 + 0.5 * turning) * 0.8;
         PhArc::new(w0, w1, [2.0, 1.7, 2.2, 1.9, 2.4, 2.1]).unwrap()
@@ -742,51 +480,6 @@ mod tests {
             assert!((moved.radius(t) - arc.radius(t) - 0.37).abs() < 1e-13);
             assert!((lines.contact(t).unwrap().point - moved.point(t)).length() < 1e-14);
         }
-    }
-
-    #[test]
-    fn motions_act_on_points() {
-        let arc = arc(1.4);
-        let turn = DVec2::from_angle(2.6);
-        let vector = DVec2::new(-3.0, 0.5);
-        let mirror = Line::new(-0.7, 0.28, 0.96).unwrap();
-        let image = |p: DVec2| p - 2.0 * mirror.signed_distance(p).unwrap() * mirror.normal();
-        for t in [0.0, 0.6, 1.0] {
-            let p = arc.point(t);
-            assert!((arc.translate(vector).point(t) - p - vector).length() < 1e-14);
-            assert!((arc.rotate(turn).point(t) - turn.rotate(p)).length() < 1e-14);
-            assert!((arc.scale(-2.0).point(t) + 2.0 * p).length() < 1e-14);
-            assert!((arc.reflect(mirror).unwrap().point(t) - image(p)).length() < 1e-14);
-            assert!((arc.reverse().point(1.0 - t) - p).length() < 1e-14);
-            assert!((arc.flip().point(t) - p).length() < 1e-14);
-            assert!((arc.flip().normal(t) + arc.normal(t)).length() < 1e-14);
-        }
-        assert!((arc.reflect(mirror).unwrap().turning() + arc.turning()).abs() < 1e-15);
-    }
-
-    #[test]
-    fn parts_keep_points_and_lengths_add_up() {
-        for turning in [0.05, 0.8, 2.9, -2.9] {
-            let arc = arc(turning);
-            let (left, right) = arc.split(0.3).unwrap();
-            assert!((left.point(0.5) - arc.point(0.15)).length() < 1e-11);
-            assert!((arc.part(0.2, 0.9).unwrap().point(0.5) - arc.point(0.55)).length() < 1e-11);
-            let sum = left.signed_length() + right.signed_length();
-            assert!(
-                (sum - arc.signed_length()).abs() < 1e-11 * sum.abs().max(1.0),
-                "{turning}"
-            );
-        }
-    }
-
-    #[test]
-    fn both_forms_of_the_length_agree() {
-        let arc = arc(1.0);
-        let (gauss, division) = (arc.length_by_gauss(), arc.length_by_division());
-        assert!(
-            (gauss - division).abs() < 1e-12 * gauss.abs(),
-            "{gauss} {division}"
-        );
     }
 
     #[test]
