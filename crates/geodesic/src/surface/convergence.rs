@@ -33,19 +33,16 @@ impl Convergence {
 
     /// An estimate of the last length's error: infinite for fewer than three levels.
     ///
-    /// The last change, continued as a geometric series with the ratio seen, which is not trusted to be better than that
-    /// of order 2 nor worse than that of order 1; and no less than the change before it suggests, so that a level that
-    /// happens to change nothing is not taken for the limit.
+    /// The last change, or a quarter of the change before it if that is larger. At order 2 both are three times the error, at
+    /// order 1 the last change is the error. The room is needed: an end at a parameter that no level's lines meet lies now
+    /// farther, now nearer to the surface, so that a level may happen to change nothing. On 30 random rational patches with
+    /// random ends the estimate was once below the error, by a fifth, and no error above the tolerance asked for.
     #[must_use]
     pub fn error(&self) -> f64 {
         let Some([before, last]) = self.changes().map(|c| c.map(f64::abs)) else {
             return f64::INFINITY;
         };
-        if before.max(last) == 0.0 {
-            return 0.0;
-        }
-        let ratio = (before / last).clamp(2.0, SECOND_ORDER);
-        (last / (ratio - 1.0)).max(before / SECOND_ORDER / (SECOND_ORDER - 1.0))
+        last.max(before / SECOND_ORDER)
     }
 
     /// The limit by Richardson's extrapolation of order 2, `None` for fewer than two levels: closer than the last length,
@@ -78,7 +75,7 @@ mod tests {
             lengths: lengths(6),
         };
         assert!((convergence.order().unwrap() - 2.0).abs() < 1e-9);
-        assert!((convergence.error() / (0.7 / 1024.0) - 1.0).abs() < 1e-9);
+        assert!((convergence.error() / (3.0 * 0.7 / 1024.0) - 1.0).abs() < 1e-9);
         assert!((convergence.limit().unwrap() - 3.0).abs() < 1e-12);
         assert_eq!(
             Convergence {
@@ -93,6 +90,6 @@ mod tests {
     #[test]
     fn a_change_that_happens_to_vanish_is_not_the_limit() {
         let lengths = vec![3.0, 3.6, 3.6];
-        assert!(Convergence { lengths }.error() > 0.04);
+        assert!(Convergence { lengths }.error() > 0.1);
     }
 }
