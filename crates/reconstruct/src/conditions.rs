@@ -4,6 +4,7 @@
 //! principal normal, carried around the boundary, reverses an even number of times; (C3) the crossing identity
 //! (3.7) holds at each corner. Proposition 5: they are necessary, and without inflections sufficient.
 
+use crate::Error;
 use crate::strip::{Strip, StripSample};
 use core::fmt;
 use glam::DVec3;
@@ -135,6 +136,20 @@ pub struct BoundaryReport {
     pub inflections: Vec<(usize, f64)>,
     /// The largest relative residual of C3 over the corners at which it could be measured.
     pub c3_residual: f64,
+}
+
+impl BoundaryReport {
+    /// The report, if these strips can bound a surface as geodesics.
+    pub(crate) fn admit<S: Strip>(self, strips: &[S]) -> Result<Self, Error> {
+        if !self.violations.is_empty() {
+            return Err(Error::Conditions(self.violations));
+        }
+        let impassable = |(side, _): &&(usize, f64)| !strips[*side].passes_inflections();
+        match self.inflections.iter().find(impassable) {
+            Some(&(side, t)) => Err(Error::Inflection { side, t }),
+            None => Ok(self),
+        }
+    }
 }
 
 /// Tolerance of the conditions unless another is asked for, relative to the size of the boundary: well above

@@ -97,17 +97,7 @@ impl<S: Strip> Rectangle<S> {
     /// # Errors
     /// As [`Rectangle::new`].
     pub fn with_tolerance(strips: [S; 4], tolerance: f64) -> Result<Self, Error> {
-        let report = check_rectangle(&strips, tolerance);
-        if !report.violations.is_empty() {
-            return Err(Error::Conditions(report.violations));
-        }
-        if let Some(&(side, t)) = report
-            .inflections
-            .iter()
-            .find(|(side, _)| !strips[*side].passes_inflections())
-        {
-            return Err(Error::Inflection { side, t });
-        }
+        let report = check_rectangle(&strips, tolerance).admit(&strips)?;
         let ends =
             [0, 1, 2, 3].map(|side: usize| [strips[side].sample(0.0), strips[side].sample(1.0)]);
         let corners = CORNERS.map(|[i, j]| {

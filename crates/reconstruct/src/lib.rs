@@ -123,6 +123,8 @@ mod tangent;
 #[cfg(test)]
 mod testing;
 mod triangle;
+mod triangle_patch;
+mod triangle_plate;
 mod two_curves;
 
 pub use bezier_patch::BezierStrip;
@@ -159,10 +161,9 @@ pub use surface::{
     tessellate_triangle,
 };
 pub use tangent::{RibbonLayout, Tangents};
-pub use triangle::{
-    SmoothedTriangle, Triangle, TrianglePatch, TriangleTwists, barycentric_gradients,
-    check_triangle,
-};
+pub use triangle::{Triangle, TriangleTwists, check_triangle};
+pub use triangle_patch::TrianglePatch;
+pub use triangle_plate::{SmoothedTriangle, barycentric_gradients};
 pub use two_curves::TwoCurveSurface;
 
 pub use bezier_mass; // the types of Bézier curves and patches appear in our signatures
