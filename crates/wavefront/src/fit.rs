@@ -33,6 +33,10 @@ const STRAIGHT: f64 = 1e-12;
 const MOST_DEPTH: u32 = 40;
 /// A front with more slivers than this does not converge at all: its tolerance is below rounding.
 const MOST_SLIVERS: usize = 32;
+/// A stretch with more arcs than this is given up where it is not fitted yet.
+const MOST_ARCS: usize = 1 << 12;
+/// Departures are known to this share of their range on a piece, or the tolerance over this.
+const DEPARTURE: f64 = 1e-3;
 /// An inflection of the front is bracketed to this share of the source's parameter.
 const INFLECTION: f64 = 1e-13;
 
@@ -56,6 +60,14 @@ struct Fitter<'f, R> {
     fronts: Vec<Front>,
     current: Front,
     slivers: usize,
+    arcs: usize,
+}
+
+impl<R> Fitter<'_, R> {
+    /// Whether a range may be halved once more.
+    const fn may_halve(&self, depth: u32) -> bool {
+        depth < MOST_DEPTH && self.arcs < MOST_ARCS
+    }
 }
 
 impl Front {
@@ -108,6 +120,7 @@ impl Front {
             fronts: Vec::new(),
             current: empty.clone(),
             slivers: 0,
+            arcs: 0,
         };
         fitter.current.cuts[0] = start;
         for range in breaks.windows(2) {
@@ -224,21 +237,23 @@ impl<R: Fn(f64) -> Result<Ray, Error>> Fitter<'_, R> {
         depth: u32,
     ) -> Result<(), Error> {
         let (shape, error) = fit_shape(elements);
-        if error <= self.tolerance.time {
-            let departures = departures(&shape, elements);
+        if error <= self.tolerance.time
+            && let Some(departures) = departures(&shape, elements, self.tolerance.time)
+        {
             self.current.pieces.push(FrontPiece { shape, departures });
             self.current.error = self.current.error.max(error);
+            self.arcs += 1;
             return Ok(());
         }
         let ends = [elements[0], elements[elements.len() - 1]];
-        if depth < MOST_DEPTH
+        if self.may_halve(depth)
             && ends[0].turning * ends[1].turning < 0.0
             && let Some(inflection) = self.inflection([start, end], ends[0].turning)
         {
             self.range(start, inflection, depth + 1)?;
             return self.range(inflection, end, depth + 1);
         }
-        if depth >= MOST_DEPTH {
+        if !self.may_halve(depth) {
             return self.give_up_or_halve([start, end], depth, error, None);
         }
         // The halves have every second element already.
@@ -294,7 +309,7 @@ impl<R: Fn(f64) -> Result<Ray, Error>> Fitter<'_, R> {
         error: f64,
         reason: Option<Error>,
     ) -> Result<(), Error> {
-        if depth < MOST_DEPTH {
+        if self.may_halve(depth) {
             let middle = 0.5 * (start + end);
             self.range(start, middle, depth + 1)?;
             return self.range(middle, end, depth + 1);
@@ -330,26 +345,38 @@ impl<R: Fn(f64) -> Result<Ray, Error>> Fitter<'_, R> {
     }
 }
 
-/// The departures along a piece, through five of the elements.
-fn departures(shape: &PieceShape, elements: &[Element]) -> Departures {
+/// The departures along a piece, through five of the elements; none if they miss the others. They tell what exists of a
+/// front at a time, not where it is: a thousandth of their range is enough.
+fn departures(shape: &PieceShape, elements: &[Element], tolerance: f64) -> Option<Departures> {
     let last = elements.len() - 1;
-    let parameter = |element: &Element| match shape {
-        PieceShape::Arc(arc) => arc.parameter_of_normal(element.normal).unwrap_or(f64::NAN),
+    let parameter = |index: usize| match shape {
+        _ if index == 0 => 0.0,
+        _ if index == last => 1.0,
+        PieceShape::Arc(arc) => arc
+            .parameter_of_normal(elements[index].normal)
+            .unwrap_or(f64::NAN),
         PieceShape::Straight { ends, .. } => {
             let along = ends[1] - ends[0];
-            along.dot(element.point - ends[0]) / along.length_squared()
+            along.dot(elements[index].point - ends[0]) / along.length_squared()
         }
     };
+    let times = elements.iter().map(|element| element.departure);
+    let earliest = times.clone().fold(f64::INFINITY, f64::min);
+    let latest = times.fold(f64::NEG_INFINITY, f64::max);
+    let allowed = (DEPARTURE * (latest - earliest)).max(DEPARTURE.recip() * tolerance);
+    if latest - earliest <= allowed {
+        return Some(Departures::at(earliest));
+    }
     let ray = |i: usize| {
-        let element = &elements[i * last / 4];
-        let t = match i {
-            0 => 0.0,
-            4 => 1.0,
-            _ => parameter(element),
-        };
-        (t, element.departure)
+        let index = i * last / 4;
+        (parameter(index), elements[index].departure)
     };
-    Departures::through([ray(0), ray(1), ray(2), ray(3), ray(4)])
+    let departures = Departures::through([ray(0), ray(1), ray(2), ray(3), ray(4)]);
+    let others = (0..=last).filter(|index| (index * 4) % last != 0);
+    let error = others
+        .map(|index| (departures.jet(parameter(index)).0 - elements[index].departure).abs())
+        .fold(0.0, f64::max);
+    (error <= allowed).then_some(departures)
 }
 
 /// The best single piece through elements and its largest error on the inner ones; infinite if there is none.

@@ -335,11 +335,15 @@ impl Model {
         let way = to - from;
         let clearance = CLEARANCE * self.size / way.length();
         let inner = from + clearance * way;
+        if clearance >= 1.0 {
+            return self.contains(to);
+        }
+        // A ray that sets out along its interface may be on the wrong side of it already.
         self.contains(to)
-            && (clearance >= 1.0
-                || !self
-                    .boundaries(layer)
-                    .any(|boundary| self.blocks(boundary, inner, to, None)))
+            && self.layer_at(inner) == layer
+            && !self
+                .boundaries(layer)
+                .any(|boundary| self.blocks(boundary, inner, to, None))
     }
 
     /// A ray near traced ones, by Newton's method on each interface from the expected parameters of the impacts: quick, and
