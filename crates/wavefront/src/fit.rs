@@ -430,7 +430,13 @@ fn fit_arc<'e>(
         LineElement::new(start.point, start.normal)?,
         LineElement::new(end.point, end.normal)?,
     )?;
-    let alpha = ends.fit_alpha(inner.map(|element| (element.normal, element.support)));
+    let fitted = ends.fit_alpha(inner.map(|element| (element.normal, element.support)));
+    // Behind a plane mirror all is one point, and the parameter has no influence but that of rounding.
+    let alpha = if fitted > 0.0 && fitted.is_finite() {
+        fitted
+    } else {
+        1.0
+    };
     Ok(ends.arc(alpha)?)
 }
 

@@ -309,10 +309,11 @@ fn check(models: std::ops::Range<u64>) -> Tally {
                 }
             }
             // Fronts end somewhere, too, and stay within their tolerance.
-            let started = std::time::Instant::now();
-            let fronts = fan.fronts(FrontTolerance::time(1e-5));
-            if started.elapsed().as_secs_f64()>0.02 {eprintln!("slow {seed} {:?} {:?} layers {} source {} rays {} ill {:?} {:?}", code.steps, started.elapsed(), layers.waves.len(), layers.source, fan.ray_count(), fan.illuminated().collect::<Vec<_>>(), fronts.as_ref().map(|f| f.iter().map(|f|f.pieces().len()).collect::<Vec<_>>()));}
             for front in fan.fronts(FrontTolerance::time(1e-5)).unwrap() {
+                if front.pieces().len() > 400 {
+                    let many = format!("model {seed}: {} arcs", front.pieces().len());
+                    tally.failures.push(many);
+                }
                 if front.error() > 1e-5 {
                     tally
                         .failures
