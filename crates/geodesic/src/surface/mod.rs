@@ -11,6 +11,7 @@ mod polyhedron;
 mod revolution;
 mod smooth;
 mod subdivision;
+mod tiles;
 mod torus_loops;
 mod trace;
 

@@ -1,23 +1,20 @@
 //! Subdivision surfaces of any topology, and paths on them: carried from polyhedron to polyhedron by the local scheme
 //! (Section 2.4 of the thesis, which left it to be done).
 //!
-//! Each triangle of a polyhedron is tiled by triangles of the next one. With the corners of the tiles given in barycentric
-//! coordinates of the triangle, a point or a path is carried over by keeping its place; the map is continuous across
-//! edges, since neighbours agree on the middles of their edges.
+//! Each triangle of a polyhedron is tiled by triangles of the next one; a point or a path is carried over by keeping its
+//! place.
 
-use glam::{DMat2, DVec2, DVec3};
+use glam::DVec3;
 
 use super::carry::sequence;
 use super::convergence::{Convergence, check_tolerance};
 use super::polyhedron::Polyhedron;
+use super::tiles::Piece;
 use crate::mesh::Mesh;
 use crate::{Error, GeodesicPath, PathFinder, SurfacePoint};
 
 /// A polyhedron never has more triangles than this: about a gigabyte with the buffers of a query.
 const MOST_FACES: usize = 1 << 22;
-
-/// Parts of a segment shorter than this, of 1, do not lead through a triangle: the carried points are good to rounding.
-const SHORTEST_PART: f64 = 1e-9;
 
 /// How a surface is refined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -54,22 +51,6 @@ pub struct SubdivisionSurface {
     /// How the next polyhedron tiles each triangle of the mesh.
     pieces: Vec<Piece>,
 }
-
-/// A triangle of the mesh among the corners of the polyhedron.
-#[derive(Clone, Copy, Debug)]
-enum Piece {
-    /// A triangle in Loop's scheme.
-    Triangle(u32),
-    /// From corner to corner to the centre of their polygon.
-    Fan([u32; 2]),
-    /// Half of a quadrilateral, from corner to corner to corner, the centre between the first and the last.
-    FirstHalf([u32; 3]),
-    /// The other half, the centre between the first and the second.
-    SecondHalf([u32; 3]),
-}
-
-/// A triangle of the next mesh, and where its corners lie in the triangle that it is a part of.
-type Tile = (u32, [[f64; 3]; 3]);
 
 impl SubdivisionSurface {
     /// Loop's surface of a triangle mesh.
@@ -199,7 +180,7 @@ impl SubdivisionSurface {
         let face = self.mesh.faces_of(point).next();
         let found = face.and_then(|f| Some((f, self.mesh.barycentric_in(f, point)?)));
         let (face, weights) = found.ok_or(Error::SequenceMissesPoint { point })?;
-        let (tile, local) = self.tile_at(face, weights);
+        let (tile, local) = self.pieces[face as usize].tile_at(weights);
         // Without the bound that the next mesh would give: snapped to its corners by whoever uses it.
         Ok(SurfacePoint::Face {
             face: tile,
@@ -222,7 +203,7 @@ impl SubdivisionSurface {
                     .flatten()
                     .ok_or(Error::SequenceMissesPoint { point })
             };
-            for tile in self.tiles_met(face, weights(ends[0])?, weights(ends[1])?) {
+            for tile in self.pieces[face as usize].tiles_met(weights(ends[0])?, weights(ends[1])?) {
                 if carried.last() != Some(&tile) {
                     carried.push(tile);
                 }
@@ -275,88 +256,6 @@ impl SubdivisionSurface {
         }
         Ok((carried.path, convergence))
     }
-
-    /// The tiles of a triangle of the mesh.
-    fn tiles(&self, face: u32) -> Vec<Tile> {
-        const A: [f64; 3] = [1.0, 0.0, 0.0];
-        const B: [f64; 3] = [0.0, 1.0, 0.0];
-        const C: [f64; 3] = [0.0, 0.0, 1.0];
-        const AB: [f64; 3] = [0.5, 0.5, 0.0];
-        const BC: [f64; 3] = [0.0, 0.5, 0.5];
-        const CA: [f64; 3] = [0.5, 0.0, 0.5];
-        // Corner c of a polygon becomes the triangles 2 c and 2 c + 1: (vertex, next edge, centre) and (vertex, centre,
-        // edge before).
-        match self.pieces[face as usize] {
-            Piece::Triangle(f) => vec![
-                (4 * f, [A, AB, CA]),
-                (4 * f + 1, [B, BC, AB]),
-                (4 * f + 2, [C, CA, BC]),
-                (4 * f + 3, [AB, BC, CA]),
-            ],
-            Piece::Fan([a, b]) => vec![(2 * a, [A, AB, C]), (2 * b + 1, [B, C, AB])],
-            Piece::FirstHalf([a, b, c]) => vec![
-                (2 * a, [A, AB, CA]),
-                (2 * b + 1, [B, CA, AB]),
-                (2 * b, [B, BC, CA]),
-                (2 * c + 1, [C, CA, BC]),
-            ],
-            Piece::SecondHalf([a, b, c]) => vec![
-                (2 * b, [B, BC, AB]),
-                (2 * c + 1, [C, AB, BC]),
-                (2 * c, [C, CA, AB]),
-                (2 * a + 1, [A, AB, CA]),
-            ],
-        }
-    }
-
-    /// The tile that contains a point of a triangle, and the point's coordinates in it.
-    fn tile_at(&self, face: u32, weights: [f64; 3]) -> (u32, [f64; 3]) {
-        let smallest = |local: &[f64; 3]| local.iter().copied().fold(f64::INFINITY, f64::min);
-        let tiles = self.tiles(face);
-        let located = tiles
-            .iter()
-            .map(|(tile, corners)| (*tile, within(corners, weights)));
-        let best = located.max_by(|a, b| smallest(&a.1).total_cmp(&smallest(&b.1)));
-        let (tile, local) = best.unwrap_or((0, weights));
-        (tile, local.map(|l| l.max(0.0)))
-    }
-
-    /// The tiles that a segment in a triangle passes, in order.
-    fn tiles_met(&self, face: u32, from: [f64; 3], to: [f64; 3]) -> Vec<u32> {
-        let mut parts: Vec<(f64, f64, u32)> = Vec::new();
-        for (tile, corners) in self.tiles(face) {
-            let (a, b) = (within(&corners, from), within(&corners, to));
-            // Where all coordinates are positive, to rounding.
-            let (mut begin, mut end) = (0.0_f64, 1.0_f64);
-            for k in 0..3 {
-                let (a, b) = (a[k] + SHORTEST_PART / 8.0, b[k] + SHORTEST_PART / 8.0);
-                if a < 0.0 && b < 0.0 {
-                    end = -1.0;
-                } else if a < 0.0 {
-                    begin = begin.max(a / (a - b));
-                } else if b < 0.0 {
-                    end = end.min(a / (a - b));
-                }
-            }
-            if end - begin > SHORTEST_PART {
-                parts.push((begin, end, tile));
-            }
-        }
-        parts.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.total_cmp(&a.1)));
-        let mut reached = 0.0;
-        let mut met = Vec::new();
-        for (_, end, tile) in parts {
-            // A segment along the edge of two tiles goes through one of them.
-            if end > reached + SHORTEST_PART {
-                met.push(tile);
-                reached = end;
-            }
-        }
-        if met.is_empty() {
-            met.push(self.tile_at(face, from).0);
-        }
-        met
-    }
 }
 
 /// A path on one level, with its ends.
@@ -396,19 +295,12 @@ impl Carried {
     }
 }
 
-/// Barycentric coordinates in a tile of a point given in those of the triangle that the tile is a part of.
-fn within(corners: &[[f64; 3]; 3], weights: [f64; 3]) -> [f64; 3] {
-    let plane = |w: [f64; 3]| DVec2::new(w[1], w[2]);
-    let [a, b, c] = corners.map(plane);
-    let local = DMat2::from_cols(b - a, c - a).inverse() * (plane(weights) - a);
-    [1.0 - local.x - local.y, local.x, local.y]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::{PatchLevels, geodesic_between, shapes};
     use bezier_mass::{BSplineSurface, Knots};
+    use glam::DVec2;
     use std::f64::consts::TAU;
 
     const AROUND: usize = 8;
@@ -596,7 +488,8 @@ mod tests {
                         let mut barycentric = [0.0; 3];
                         barycentric[(h % 3) as usize] = 1.0 - t;
                         barycentric[((h + 1) % 3) as usize] = t;
-                        let (face, barycentric) = surface.tile_at(h / 3, barycentric);
+                        let (face, barycentric) =
+                            surface.pieces[(h / 3) as usize].tile_at(barycentric);
                         let point = SurfacePoint::Face { face, barycentric };
                         finer.mesh().point_position(point).unwrap()
                     };
