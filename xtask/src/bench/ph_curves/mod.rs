@@ -31,8 +31,8 @@ pub(super) struct PhCurves {}
 const TOLERANCES: [f64; 2] = [1e-6, 1e-9];
 /// Points per span of the exact offset at which errors are measured, and per piece of a result.
 const SAMPLES: [usize; 2] = [23, 5];
-/// The sizes at which degenerate input is tried, as factors of 100.
-const SCALES: [f64; 3] = [1.0, 1e-7, 1e9];
+/// The sizes at which degenerate input is tried.
+const SIZES: [f64; 3] = [SIZE, 1e-7, 1e9];
 
 impl Bench for PhCurves {
     const NAME: &'static str = "ph-curves";
@@ -54,8 +54,8 @@ impl Bench for PhCurves {
             }
         }
         for input in &DEGENERATE {
-            for scale in SCALES {
-                rows.push(degenerate_row(timer, input, scale));
+            for size in SIZES {
+                rows.push(degenerate_row(timer, input, size));
             }
         }
         rows.extend(length_rows(timer)?);
@@ -245,9 +245,10 @@ fn own_error(spline: &ArcSpline, offset: &ArcSpline) -> f64 {
 }
 
 /// A degenerate cubic at one size: an answer or the name of the reason why there is none.
-fn degenerate_row(timer: &Timer, input: &Degenerate, scale: f64) -> Value {
+fn degenerate_row(timer: &Timer, input: &Degenerate, size: f64) -> Value {
     let tolerance = 1e-6;
-    let (size, distance) = (SIZE * scale, input.distance * scale);
+    let scale = size / SIZE;
+    let distance = input.distance * scale;
     let how = Approximation::within(tolerance * size);
     let control = input.control(scale);
     let ours = || -> Result<ArcSpline, ph_curves::Error> {
