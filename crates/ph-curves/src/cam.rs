@@ -121,7 +121,7 @@ impl<L: Lift> Lift for Antisymmetric<L> {
 /// let samples: Vec<f64> = (0..48)
 ///     .map(|i| {
 ///         let angle = std::f64::consts::TAU * f64::from(i) / 48.0;
-///         20.0 + 1.2 * (3.0 * angle).cos() + 0.01 * (17.0 * angle).sin().signum()
+///         20.0 + 1.2 * (3.0 * angle).cos() + 0.01 * (7.3 * f64::from(i)).sin()
 ///     })
 ///     .collect();
 /// let lift = HarmonicLift::fit(&samples, 5)?;
