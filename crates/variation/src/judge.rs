@@ -205,11 +205,11 @@ impl Part {
         let error = error + (degree + 2) as f64 * Twofold::ROUNDING * largest(&row);
         let mut left = Vec::with_capacity(row.len());
         left.push(row[0]);
-        for j in 1..=degree {
+        for (j, power) in HALF_POWERS[..=degree].iter().enumerate().skip(1) {
             for i in 0..=degree - j {
                 row[i] = row[i].plus(row[i + 1]);
             }
-            left.push(row[0].scaled(HALF_POWERS[j]));
+            left.push(row[0].scaled(*power));
         }
         for (value, power) in row.iter_mut().zip(HALF_POWERS[..=degree].iter().rev()) {
             *value = value.scaled(*power);

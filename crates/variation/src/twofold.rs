@@ -43,6 +43,35 @@ pub(crate) fn two_product(a: f64, b: f64, (b_high, b_low): (f64, f64)) -> (f64, 
 }
 
 impl Twofold {
+    /// Relative error of [`Twofold::times_binomial`] and [`Twofold::over_binomial`] together, several times over.
+    pub(crate) const ERROR: f64 = 64.0 * U * U;
+
+    /// `p C(n, i)`, to two roundings of the low part.
+    pub(crate) fn times_binomial(p: f64, n: usize, i: usize) -> Self {
+        let (binomial, rest) = (BINOMIALS[n][i], BINOMIAL_RESTS[n][i]);
+        let (high, low) = two_product(p, binomial, halves(binomial));
+        Self {
+            high,
+            low: low + p * rest,
+        }
+    }
+
+    /// `self / C(n, i)`: one step of long division, to six roundings of the low part.
+    pub(crate) fn over_binomial(self, n: usize, i: usize) -> Self {
+        let (binomial, rest) = (BINOMIALS[n][i], BINOMIAL_RESTS[n][i]);
+        let high = self.high / binomial;
+        let (product, error) = two_product(high, binomial, halves(binomial));
+        let remainder = ((self.high - product) - error) + (self.low - high * rest);
+        Self {
+            high,
+            low: remainder / binomial,
+        }
+    }
+}
+
+/// Sums and products, which only the judge needs.
+#[cfg(feature = "exact")]
+impl Twofold {
     pub(crate) const ZERO: Self = Self {
         high: 0.0,
         low: 0.0,
@@ -90,31 +119,6 @@ impl Twofold {
         Self {
             high: self.high * power,
             low: self.low * power,
-        }
-    }
-
-    /// Relative error of [`Twofold::times_binomial`] and [`Twofold::over_binomial`] together, several times over.
-    pub(crate) const ERROR: f64 = 64.0 * U * U;
-
-    /// `p C(n, i)`, to two roundings of the low part.
-    pub(crate) fn times_binomial(p: f64, n: usize, i: usize) -> Self {
-        let (binomial, rest) = (BINOMIALS[n][i], BINOMIAL_RESTS[n][i]);
-        let (high, low) = two_product(p, binomial, halves(binomial));
-        Self {
-            high,
-            low: low + p * rest,
-        }
-    }
-
-    /// `self / C(n, i)`: one step of long division, to six roundings of the low part.
-    pub(crate) fn over_binomial(self, n: usize, i: usize) -> Self {
-        let (binomial, rest) = (BINOMIALS[n][i], BINOMIAL_RESTS[n][i]);
-        let high = self.high / binomial;
-        let (product, error) = two_product(high, binomial, halves(binomial));
-        let remainder = ((self.high - product) - error) + (self.low - high * rest);
-        Self {
-            high,
-            low: remainder / binomial,
         }
     }
 }
