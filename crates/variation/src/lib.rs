@@ -92,6 +92,7 @@ struct ReadmeDoctests;
 
 mod arithmetic;
 mod bound;
+mod cubic;
 mod curve;
 #[cfg(feature = "exact")]
 mod dyadic;

@@ -1,55 +1,40 @@
 //! Degrees 1 to 5 on a direct path: everything in registers, sizes known to the compiler.
 //!
-//! Linear and quadratic polynomials have formulas whose rounding is bounded here. The others are split where Descartes' count
-//! is not yet 0 or 1 (a cubic at its extremum) and refined by Householder's method on the original coefficients; two certain signs
+//! Linear and quadratic polynomials have formulas whose rounding is bounded here; cubics have a file of their own. Degrees 4 and
+//! 5 are halved where Descartes' count is not yet 0 or 1 and refined by Householder's method on the original coefficients; two certain signs
 //! close each enclosure. Whatever is uncertain returns `None`, and the general path takes over.
 
+use crate::cubic;
+use crate::root::{Interval, List, Root};
 use crate::rounding::{SAFE_LEAST, SAFE_MOST, U};
 
 /// The highest degree of the direct path.
 pub(crate) const MAX_DEGREE: usize = 5;
 
-/// Roots of one polynomial: ascending enclosures.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Enclosures {
-    spans: [(f64, f64); MAX_DEGREE],
-    len: usize,
-}
-
-impl Enclosures {
-    const NONE: Self = Self {
-        spans: [(0.0, 0.0); MAX_DEGREE],
-        len: 0,
-    };
-
-    #[inline]
-    fn push(&mut self, span: (f64, f64)) -> Option<()> {
-        *self.spans.get_mut(self.len)? = span;
-        self.len += 1;
-        Some(())
-    }
-
-    pub(crate) fn as_slice(&self) -> &[(f64, f64)] {
-        &self.spans[..self.len]
-    }
-}
-
-/// The direct path. `None` for other degrees, zeros at the ends, numbers out of range, and where it cannot decide.
+/// The direct path: writes the roots, ascending, and counts them. `None` for other degrees, zeros at the ends, numbers out of
+/// range, and where it cannot decide.
 #[inline]
-pub(crate) fn solve(coefficients: &[f64], tolerance: f64) -> Option<Enclosures> {
+pub(crate) fn solve(
+    coefficients: &[f64],
+    tolerance: f64,
+    slots: &mut [Root],
+    interval: Interval,
+) -> Option<usize> {
+    let mut found = List::new(slots, interval);
     match *coefficients {
-        [a, b] => checked(&[a, b]).map(|_| linear([a, b])),
-        [a, b, c] => checked(&[a, b, c]).and_then(|_| quadratic([a, b, c], tolerance)),
-        [a, b, c, d] => roots(&[a, b, c, d], tolerance),
-        [a, b, c, d, e] => roots(&[a, b, c, d, e], tolerance),
-        [a, b, c, d, e, f] => roots(&[a, b, c, d, e, f], tolerance),
-        _ => None,
+        [a, b] => linear([a, b], &mut found)?,
+        [a, b, c] => quadratic([a, b, c], tolerance, &mut found)?,
+        [a, b, c, d] => cubic::solve([a, b, c, d], tolerance, &mut found)?,
+        [a, b, c, d, e] => roots(&[a, b, c, d, e], tolerance, &mut found)?,
+        [a, b, c, d, e, f] => roots(&[a, b, c, d, e, f], tolerance, &mut found)?,
+        _ => return None,
     }
+    Some(found.len())
 }
 
 /// The largest magnitude, if the ends are not zero and nothing can overflow or underflow.
 #[inline]
-fn checked<const M: usize>(p: &[f64; M]) -> Option<f64> {
+pub(crate) fn checked<const M: usize>(p: &[f64; M]) -> Option<f64> {
     let mut largest = 0.0_f64;
     let mut finite = true;
     for x in p {
@@ -61,14 +46,12 @@ fn checked<const M: usize>(p: &[f64; M]) -> Option<f64> {
 }
 
 /// The root of a linear polynomial whose coefficients have opposite signs. Two roundings, no cancellation.
-fn linear([a, b]: [f64; 2]) -> Enclosures {
-    let mut found = Enclosures::NONE;
+fn linear([a, b]: [f64; 2], found: &mut List<'_>) -> Option<()> {
+    checked(&[a, b])?;
     if (a < 0.0) != (b < 0.0) {
-        let t = a / (a - b);
-        found.spans[0] = around(t, 4.0 * U);
-        found.len = 1;
+        found.push_simple(around(a / (a - b), 4.0 * U));
     }
-    found
+    Some(())
 }
 
 /// `t` with a relative error, kept within `[0, 1]`.
@@ -80,18 +63,18 @@ fn around(t: f64, relative: f64) -> (f64, f64) {
 ///
 /// In `r = t / (1-t)` it is `c r^2 + 2 b r + a`; both roots come from `q = -(b + sign(b) sqrt(d))` as `q / c` and `a / q`, which
 /// do not cancel.
-fn quadratic([a, b, c]: [f64; 3], tolerance: f64) -> Option<Enclosures> {
-    let mut found = Enclosures::NONE;
+fn quadratic([a, b, c]: [f64; 3], tolerance: f64, found: &mut List<'_>) -> Option<()> {
+    checked(&[a, b, c])?;
     let opposite = (a < 0.0) != (c < 0.0);
     if !opposite && (b == 0.0 || (a < 0.0) == (b < 0.0)) {
-        return Some(found);
+        return Some(());
     }
     let (square, product) = (b * b, a * c);
     let discriminant = square - product;
     // Three roundings: each at most U times one of the terms or their sum.
     let error = 2.0 * U * (square + product.abs());
     if discriminant < -error {
-        return Some(found);
+        return Some(());
     }
     if discriminant <= 4.0 * error {
         return None;
@@ -109,16 +92,17 @@ fn quadratic([a, b, c]: [f64; 3], tolerance: f64) -> Option<Enclosures> {
         } else {
             parameter(a, q)
         };
-        found.push(around(t, relative))?;
+        found.push_simple(around(t, relative));
     } else {
         let (s, t) = (parameter(q, c), parameter(a, q));
-        found.push(around(s.min(t), relative))?;
-        found.push(around(s.max(t), relative))?;
-        if found.spans[0].1 >= found.spans[1].0 {
+        let (first, second) = (around(s.min(t), relative), around(s.max(t), relative));
+        if first.1 >= second.0 {
             return None;
         }
+        found.push_simple(first);
+        found.push_simple(second);
     }
-    Some(found)
+    Some(())
 }
 
 /// A polynomial of degree `M - 1` with what its evaluation needs.
@@ -284,15 +268,14 @@ struct Piece<const M: usize> {
 const MAX_PIECES: usize = 4;
 const MAX_SPLITS: usize = 6;
 
-/// The roots of a polynomial of degree 3 to 5.
+/// The roots of a polynomial of degree 4 or 5.
 #[inline]
-fn roots<const M: usize>(p: &[f64; M], tolerance: f64) -> Option<Enclosures> {
+fn roots<const M: usize>(p: &[f64; M], tolerance: f64, found: &mut List<'_>) -> Option<()> {
     let largest = checked(p)?;
-    let mut found = Enclosures::NONE;
     // A zero coefficient takes part with either sign: that can only raise the count, by an even number.
     let changes = sign_changes(p);
     if changes == 0 {
-        return Some(found);
+        return Some(());
     }
     let small = Small::new(p, largest);
     let whole = Piece {
@@ -301,12 +284,11 @@ fn roots<const M: usize>(p: &[f64; M], tolerance: f64) -> Option<Enclosures> {
         p: *p,
     };
     if changes == 1 {
-        found.push(small.refine((0.0, 1.0), p[0] < 0.0, crossing(p), tolerance)?)?;
-        return Some(found);
+        found.push_simple(small.refine((0.0, 1.0), p[0] < 0.0, crossing(p), tolerance)?);
+        return Some(());
     }
-    // A row of a split costs each term three roundings; the rounded split parameter costs at most twice the degree in units
-    // of U * largest, the slope of F.
-    let split_error = (5 * M * MAX_SPLITS) as f64 * U * largest;
+    // Each row of a halving rounds once by at most U * largest; the surplus pays for rounding the bound.
+    let split_error = (2 * M * MAX_SPLITS) as f64 * U * largest;
     let mut waiting = [whole; MAX_PIECES];
     let mut len = 1;
     let mut splits = 0;
@@ -317,20 +299,19 @@ fn roots<const M: usize>(p: &[f64; M], tolerance: f64) -> Option<Enclosures> {
             0 => {}
             1 => {
                 let guess = piece.lo + (piece.hi - piece.lo) * crossing(&piece.p);
-                found.push(small.refine(
+                found.push_simple(small.refine(
                     (piece.lo, piece.hi),
                     piece.p[0] < 0.0,
                     guess,
                     tolerance,
-                )?)?;
+                )?);
             }
             _ => {
                 splits += 1;
                 if splits > MAX_SPLITS || len + 2 > MAX_PIECES {
                     return None;
                 }
-                let z = if M == 4 { extremum(&piece.p) } else { 0.5 };
-                let (left, right) = piece.split(z);
+                let (left, right) = piece.halves();
                 let inner_certain =
                     certain_inside(&left.p, split_error) && certain_inside(&right.p, split_error);
                 if !inner_certain || right.p[0].abs() <= split_error {
@@ -342,7 +323,7 @@ fn roots<const M: usize>(p: &[f64; M], tolerance: f64) -> Option<Enclosures> {
             }
         }
     }
-    Some(found)
+    Some(())
 }
 
 /// Whether all but the two ends have certain signs.
@@ -366,49 +347,28 @@ fn crossing<const M: usize>(p: &[f64; M]) -> f64 {
     0.5
 }
 
-/// The parameter of the extremum that a cubic with the sign of `p_0` has against that sign, or 1/2.
-#[inline]
-fn extremum<const M: usize>(p: &[f64; M]) -> f64 {
-    let (a, b, c) = (p[1] - p[0], p[2] - p[1], p[3] - p[2]);
-    let discriminant = b * b - a * c;
-    if discriminant <= 0.0 {
-        return 0.5;
-    }
-    // a s^2 + 2 b s t + c t^2 = 0; the sign of the root decides between minimum and maximum.
-    let root = discriminant.sqrt().copysign(p[0]);
-    // Minimum (p_0 > 0): the derivative grows through zero. t / s = (-b + root) / c = a / (-b - root).
-    let z = if (b < 0.0) == (root > 0.0) {
-        let up = root - b;
-        up / (up + c)
-    } else {
-        let down = -b - root;
-        a / (a + down)
-    };
-    if z > 0.01 && z < 0.99 { z } else { 0.5 }
-}
-
 impl<const M: usize> Piece<M> {
     #[inline]
-    fn split(&self, z: f64) -> (Self, Self) {
+    fn halves(&self) -> (Self, Self) {
         let mut row = self.p;
         let mut left = self.p;
         for (j, slot) in left.iter_mut().enumerate().skip(1) {
             for i in 0..M - j {
-                row[i] = (1.0 - z) * row[i] + z * row[i + 1];
+                row[i] = 0.5 * (row[i] + row[i + 1]);
             }
             *slot = row[0];
         }
-        let middle = self.lo + (self.hi - self.lo) * z;
+        let middle = 0.5 * (self.lo + self.hi);
         (
             Self {
-                lo: self.lo,
                 hi: middle,
                 p: left,
+                ..*self
             },
             Self {
                 lo: middle,
-                hi: self.hi,
                 p: row,
+                ..*self
             },
         )
     }

@@ -60,6 +60,7 @@ impl Interval {
     }
 
     /// Encloses the image of `[lo, hi]` in `[0, 1]` under `u -> a + (b - a) u`, rounded outward and kept within the ends.
+    #[inline]
     pub(crate) fn image(self, lo: f64, hi: f64) -> (f64, f64) {
         if self == Self::UNIT {
             return (lo, hi);
@@ -120,6 +121,7 @@ impl Root {
         count: Count::AtMost(0),
     };
 
+    #[inline]
     pub(crate) fn exactly(lo: f64, hi: f64, multiplicity: u32) -> Self {
         Self {
             lo,
@@ -150,6 +152,55 @@ impl Root {
     }
 }
 
+/// Roots in the order of their discovery, mapped to the interval, in storage that the caller provides.
+#[derive(Debug)]
+pub(crate) struct List<'a> {
+    slots: &'a mut [Root],
+    len: usize,
+    interval: Interval,
+}
+
+impl<'a> List<'a> {
+    #[inline]
+    pub(crate) fn new(slots: &'a mut [Root], interval: Interval) -> Self {
+        Self {
+            slots,
+            len: 0,
+            interval,
+        }
+    }
+
+    #[inline]
+    pub(crate) fn len(&self) -> usize {
+        self.len
+    }
+
+    #[inline]
+    pub(crate) fn push(&mut self, root: Root) {
+        if let Some(slot) = self.slots.get_mut(self.len) {
+            let (lo, hi) = self.interval.image(root.lo, root.hi);
+            *slot = Root {
+                lo,
+                hi,
+                count: root.count,
+            };
+            self.len += 1;
+        }
+    }
+
+    /// A simple root between two numbers.
+    #[inline]
+    pub(crate) fn push_simple(&mut self, (lo, hi): (f64, f64)) {
+        self.push(Root::exactly(lo, hi, 1));
+    }
+
+    pub(crate) fn push_end(&mut self, at: f64, multiplicity: usize) {
+        if multiplicity > 0 {
+            self.push(Root::exactly(at, at, multiplicity as u32));
+        }
+    }
+}
+
 /// Roots up to this number are kept without allocation.
 pub(crate) const INLINE: usize = 16;
 
@@ -162,6 +213,20 @@ pub struct Roots {
 }
 
 impl Roots {
+    /// Up to [`INLINE`] roots that `write` puts in place, and counts.
+    #[inline]
+    pub(crate) fn written<E>(
+        write: impl FnOnce(&mut [Root]) -> Result<usize, E>,
+    ) -> Result<Self, E> {
+        let mut inline = [Root::NONE; INLINE];
+        let len = write(&mut inline)?;
+        Ok(Self {
+            inline,
+            len,
+            spill: Vec::new(),
+        })
+    }
+
     pub(crate) fn from_slice(roots: &[Root]) -> Self {
         let mut out = Self {
             inline: [Root::NONE; INLINE],
@@ -171,29 +236,6 @@ impl Roots {
         match out.inline.get_mut(..roots.len()) {
             Some(inline) => inline.copy_from_slice(roots),
             None => out.spill = roots.to_vec(),
-        }
-        out
-    }
-}
-
-impl FromIterator<Root> for Roots {
-    fn from_iter<I: IntoIterator<Item = Root>>(roots: I) -> Self {
-        let mut out = Self {
-            inline: [Root::NONE; INLINE],
-            len: 0,
-            spill: Vec::new(),
-        };
-        for root in roots {
-            match out.inline.get_mut(out.len) {
-                Some(slot) => *slot = root,
-                None => {
-                    if out.spill.is_empty() {
-                        out.spill.extend_from_slice(&out.inline);
-                    }
-                    out.spill.push(root);
-                }
-            }
-            out.len += 1;
         }
         out
     }

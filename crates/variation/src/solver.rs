@@ -7,9 +7,7 @@ use crate::low_degree;
 use crate::root::{Count, INLINE, Interval, Root, Roots};
 use crate::rounding::{MAX_FLOAT_DEGREE, U};
 use crate::sign_changes::descartes_changes;
-use crate::tiers::{
-    DEFAULT_TOLERANCE, Fixed, Options, Scratch, largest, numbers_len, roots_capacity, solve,
-};
+use crate::tiers::{DEFAULT_TOLERANCE, Fixed, Options, Scratch, largest, numbers_len, solve};
 
 /// All real roots in `[0, 1]` of `sum p_i C(n,i) t^i (1-t)^(n-i)`, ascending, each certified.
 ///
@@ -36,33 +34,40 @@ pub fn roots(coefficients: &[f64]) -> Result<Roots, Error> {
 /// # Errors
 /// As [`roots`].
 pub fn roots_on(coefficients: &[f64], interval: Interval) -> Result<Roots, Error> {
-    const N: usize = INLINE;
-    if let Some(found) = low_degree::solve(coefficients, DEFAULT_TOLERANCE) {
-        return Ok(roots_of_spans(&found, interval).collect());
-    }
-    if coefficients.len() > N + 1 {
+    if coefficients.len() > INLINE + 1 {
         return Solver::new()
             .roots_on(coefficients, interval)
             .map(Roots::from_slice);
     }
+    Roots::written(|slots| {
+        low_degree::solve(coefficients, DEFAULT_TOLERANCE, slots, interval)
+            .map_or_else(|| solve_in_place(coefficients, interval, slots), Ok)
+    })
+}
+
+/// As [`roots_on`] up to degree [`INLINE`]: all storage on the stack.
+fn solve_in_place(
+    coefficients: &[f64],
+    interval: Interval,
+    slots: &mut [Root],
+) -> Result<usize, Error> {
+    const N: usize = INLINE;
     let mut numbers = [0.0; numbers_len(N)];
     let mut waiting = [Node::NONE; node_capacity(N)];
     let mut findings = [Finding::NONE; node_capacity(N)];
-    let mut roots = [Root::NONE; roots_capacity(N)];
     let mut scratch = Scratch {
         numbers: &mut numbers,
         waiting: &mut waiting,
         findings: &mut findings,
         fixed: &mut Fixed::default(),
-        roots: &mut roots,
+        roots: slots,
     };
-    let len = solve(
+    solve(
         &Input::exactly(coefficients),
         interval,
         Options::DEFAULT,
         &mut scratch,
-    )?;
-    Ok(Roots::from_slice(&roots[..len]))
+    )
 }
 
 /// The bound (4.2) with the pole 1/2 and the polygon of the polar derivative, for nonzero ends: zeros inside counted by the
@@ -86,18 +91,6 @@ fn pole_half_changes(p: &[f64]) -> usize {
         (zeros, negative) = (0, q < 0.0);
     }
     changes
-}
-
-/// Simple roots, mapped to the interval.
-#[inline]
-fn roots_of_spans(
-    found: &low_degree::Enclosures,
-    interval: Interval,
-) -> impl Iterator<Item = Root> + '_ {
-    found.as_slice().iter().map(move |&(lo, hi)| {
-        let (lo, hi) = interval.image(lo, hi);
-        Root::exactly(lo, hi, 1)
-    })
 }
 
 /// The roots of many polynomials, in their order; with the feature `rayon` on all cores.
@@ -200,10 +193,13 @@ impl Solver {
     /// # Errors
     /// As [`crate::roots`].
     pub fn roots_on(&mut self, coefficients: &[f64], interval: Interval) -> Result<&[Root], Error> {
-        if let Some(found) = low_degree::solve(coefficients, self.options.tolerance) {
-            self.roots.clear();
-            self.roots.extend(roots_of_spans(&found, interval));
-            return Ok(&self.roots);
+        if self.roots.len() < low_degree::MAX_DEGREE {
+            self.roots.resize(low_degree::MAX_DEGREE, Root::NONE);
+        }
+        let tolerance = self.options.tolerance;
+        let found = low_degree::solve(coefficients, tolerance, &mut self.roots, interval);
+        if let Some(found) = found {
+            return Ok(&self.roots[..found]);
         }
         self.solve(&Input::exactly(coefficients), interval)
     }
@@ -271,8 +267,9 @@ impl Solver {
             self.waiting.resize(node_capacity(degree), Node::NONE);
             self.findings.resize(node_capacity(degree), Finding::NONE);
         }
-        self.roots
-            .resize(self.roots.len().max(roots_capacity(degree)), Root::NONE);
+        if self.roots.len() <= degree {
+            self.roots.resize(degree + 1, Root::NONE);
+        }
         let mut scratch = Scratch {
             numbers: &mut self.numbers,
             waiting: &mut self.waiting,

@@ -6,7 +6,7 @@ use crate::input::Input;
 #[cfg(feature = "exact")]
 use crate::input::Origin;
 use crate::isolate::{self, Finding, Findings, Node, Values, node_capacity, rows_len};
-use crate::root::{Interval, Root};
+use crate::root::{Interval, List, Root};
 use crate::rounding::{
     BINOMIALS, Evaluator, MAX_FLOAT_DEGREE, SAFE_EXPONENT, U, evaluator_len, exponent_of,
     power_of_two,
@@ -37,6 +37,7 @@ pub(crate) struct Scratch<'a> {
     pub(crate) waiting: &'a mut [Node<f64>],
     pub(crate) findings: &'a mut [Finding],
     pub(crate) fixed: &'a mut Fixed,
+    /// As many as the degree.
     pub(crate) roots: &'a mut [Root],
 }
 
@@ -57,11 +58,6 @@ impl Fixed {
 /// How many `f64` a solve of this degree stores.
 pub(crate) const fn numbers_len(degree: usize) -> usize {
     (degree + 1) + evaluator_len(degree) + sharp_len(degree) + rows_len(degree)
-}
-
-/// Room for every finding and the two ends.
-pub(crate) const fn roots_capacity(degree: usize) -> usize {
-    node_capacity(degree) + 2
 }
 
 /// Writes the roots in `interval` to the scratch, and returns their number.
@@ -113,11 +109,7 @@ pub(crate) fn solve(
     } else {
         (0, 0)
     };
-    let mut list = List {
-        roots: scratch.roots,
-        len: 0,
-        interval,
-    };
+    let mut list = List::new(scratch.roots, interval);
     list.push_end(0.0, at_zero);
     if options.exact && first_open.is_some() {
         conclude(input, options.tolerance, findings.as_slice(), &mut list)?;
@@ -127,7 +119,7 @@ pub(crate) fn solve(
         }
     }
     list.push_end(1.0, at_one);
-    Ok(list.len)
+    Ok(list.len())
 }
 
 /// The largest magnitude.
@@ -259,33 +251,6 @@ impl Fixed {
                 &mut self.rows,
                 findings,
             );
-        }
-    }
-}
-
-/// Roots in the order of their discovery, mapped to the interval.
-struct List<'a> {
-    roots: &'a mut [Root],
-    len: usize,
-    interval: Interval,
-}
-
-impl List<'_> {
-    fn push(&mut self, root: Root) {
-        if let Some(slot) = self.roots.get_mut(self.len) {
-            let (lo, hi) = self.interval.image(root.lo, root.hi);
-            *slot = Root {
-                lo,
-                hi,
-                count: root.count,
-            };
-            self.len += 1;
-        }
-    }
-
-    fn push_end(&mut self, at: f64, multiplicity: usize) {
-        if multiplicity > 0 {
-            self.push(Root::exactly(at, at, multiplicity as u32));
         }
     }
 }
