@@ -93,10 +93,8 @@ pub(crate) fn solve(p: [f64; 4], tolerance: f64, found: &mut List<'_>) -> Option
         Extrema::At(places) => places,
     };
     // Positive: the value has the sign that F has at 0.
-    let value = |t: f64| {
-        let value = cubic.value(t);
-        if at_zero { -value } else { value }
-    };
+    let side = if at_zero { -1.0 } else { 1.0 };
+    let value = |t: f64| side * cubic.value(t);
     let error = EXTREMUM_ERROR * largest;
     if changes == 2 {
         // The only extremum that could carry F to the other side is the first (in the order of the formula) if the middle slope
@@ -162,7 +160,7 @@ fn extrema([a, b, c]: [f64; 3]) -> Extrema {
 }
 
 impl Cubic {
-    #[inline]
+    #[inline(always)]
     fn value(&self, t: f64) -> f64 {
         let s = 1.0 - t;
         (self.p[0] * s + self.inner[0] * t) * (s * s)
@@ -170,7 +168,7 @@ impl Cubic {
     }
 
     /// One step of Householder's method of order four, and the slope at `t`.
-    #[inline]
+    #[inline(always)]
     fn step(&self, t: f64) -> (f64, f64) {
         let [a, b, c, d] = self.power;
         let square = t * t;
@@ -184,7 +182,7 @@ impl Cubic {
     }
 
     /// A guess for the root below (`side = -1`) or above the extremum at `z`: `value + bend h^2 + d h^3 = 0` to second order.
-    #[inline]
+    #[inline(always)]
     fn beside(&self, z: f64, side: f64) -> f64 {
         let [_, _, c, d] = self.power;
         let curvature = 1.0 / (c + 3.0 * d * z);
@@ -193,7 +191,7 @@ impl Cubic {
     }
 
     /// Encloses the only root of a bracket.
-    #[inline]
+    #[inline(always)]
     fn enclose(&self, bracket: Bracket, guess: f64) -> Option<(f64, f64)> {
         let Bracket {
             lo,
@@ -205,15 +203,17 @@ impl Cubic {
             if t > lo && t < hi { t } else { 0.5 * (lo + hi) }
         };
         let error = VALUE_ERROR * self.largest;
-        let mut t = inside(self.step(inside(guess)).0);
+        let mut t = inside(self.step(guess).0);
         for _ in 0..ATTEMPTS {
             let (next, slope) = self.step(t);
             t = inside(next);
             let reach = 4.0 * error / slope.abs() + (4.0 * U + 0.2 * self.tolerance);
             let (left, right) = (t - reach, t + reach);
-            let sign = if negative_lo { -1.0 } else { 1.0 };
-            let (below, above) = (sign * self.value(left), -sign * self.value(right));
-            let certain = below > error && above > error;
+            let (below, above) = (self.value(left), self.value(right));
+            let certain = below.abs() > error
+                && above.abs() > error
+                && (below < 0.0) == negative_lo
+                && (above < 0.0) != negative_lo;
             if certain && left > lo && right < hi && reach <= 0.45 * self.tolerance {
                 return Some((left, right));
             }

@@ -1,7 +1,7 @@
 //! Root isolation: time, missed and false roots by set and degree, beside power-basis solvers; and the soak test.
 
 use std::hint::black_box;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use ::variation::sets::{Set, SplitMix64, planted};
 use ::variation::{Root, Solver, Verdict, to_power_form};
@@ -23,9 +23,11 @@ const ACCURACY: f64 = 1e-12;
 /// An imaginary part up to this, relative to `1 + |re|`, counts as none.
 const REAL: f64 = 1e-9;
 
-/// Degrees up to which peers are timed, and items up to which the exact truth is computed at higher ones.
+/// Degrees up to which peers are timed.
 const PEER_DEGREE: usize = 40;
-const HIGH_DEGREE_ITEMS: usize = 10;
+
+/// A peer that is slow takes the first polynomials of a set, as many as it solves in this time; the table states how many.
+const PEER_TIME: Duration = Duration::from_millis(250);
 
 #[derive(clap::Args, Debug)]
 pub(super) struct Variation {
@@ -38,7 +40,7 @@ pub(super) struct Variation {
     /// Leave the peers out
     #[arg(long)]
     alone: bool,
-    /// Judge random polynomials with planted roots by Sturm's theorem instead of timing
+    /// Judge the roots of random polynomials with planted roots instead of timing
     #[arg(long)]
     soak: bool,
     /// How many polynomials the soak test takes
@@ -91,12 +93,7 @@ impl Variation {
                 let _ = black_box(solver.roots(black_box(item)));
             }
         }) / items.len() as f64;
-        let judged = if degree > PEER_DEGREE {
-            HIGH_DEGREE_ITEMS
-        } else {
-            items.len()
-        };
-        let truth = truth(&items[..judged.min(items.len())])?;
+        let truth = truth(&items)?;
         let score = truth
             .iter()
             .fold(Score::default(), |sum, (_, own)| sum.plus(*own));
@@ -124,9 +121,9 @@ impl Score {
     }
 }
 
-/// The exact roots of each polynomial, and how our answer compares with Sturm's theorem.
+/// The exact roots of each polynomial, and how our answer compares with them.
 ///
-/// The enclosures are the solver's own; they are the truth only because, and where, the chain confirms every one.
+/// The enclosures are the solver's own; they are the truth only because, and where, the judge confirms every one.
 fn truth(items: &[Vec<f64>]) -> Result<Vec<(Vec<f64>, Score)>> {
     items
         .par_iter()
@@ -179,20 +176,26 @@ fn peers(
     }
     let mut result = Map::new();
     for (name, mut solve) in peers {
+        let clock = Instant::now();
+        let (mut score, mut taken) = (Score::default(), 0);
+        for (power, (roots, _)) in powers.iter().zip(truth) {
+            score = score.plus(compare(roots, solve(power)));
+            taken += 1;
+            if clock.elapsed() > PEER_TIME {
+                break;
+            }
+        }
         let ns = timer.nanoseconds(|| {
-            for power in &powers {
+            for power in &powers[..taken] {
                 black_box(solve(black_box(power)));
             }
-        }) / powers.len() as f64;
-        let score = powers
-            .iter()
-            .zip(truth)
-            .map(|(power, (roots, _))| compare(roots, solve(power)))
-            .fold(Score::default(), Score::plus);
-        result.insert(
-            name.into(),
-            json!({ "ns": ns.round(), "missed": score.missed, "false": score.false_roots }),
-        );
+        }) / taken as f64;
+        let mut figures =
+            json!({ "ns": ns.round(), "missed": score.missed, "false": score.false_roots });
+        if taken < powers.len() {
+            figures["of"] = json!(taken);
+        }
+        result.insert(name.into(), figures);
     }
     Ok(result)
 }
@@ -296,7 +299,7 @@ fn rpoly<'a>(degree: usize) -> Option<Peer<'a>> {
     })
 }
 
-/// Random polynomials of degree 1 to 20 with planted roots, each judged by Sturm's theorem on the rounded coefficients.
+/// Random polynomials of degree 1 to 20 with planted roots, each judged on the exact roots of the rounded coefficients.
 fn soak(start: u64, count: u64) -> Value {
     /// Polynomials between two reports of progress.
     const STRIDE: u64 = 1000;

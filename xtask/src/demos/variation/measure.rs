@@ -1,10 +1,10 @@
-//! The numbers: bounds against exact counts, and the solver against Sturm's theorem.
+//! The numbers: bounds against exact counts, and the solver against proofs and Sturm's theorem.
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use rayon::prelude::*;
 use variation::sets::{Set, SplitMix64};
 use variation::{
-    PoleStrategy, Solver, SturmChain, chain_bound, chain_bound_by, corollary_bound, pole_bound,
+    PoleStrategy, Solver, Verdict, chain_bound, chain_bound_by, corollary_bound, pole_bound,
 };
 
 use crate::demo::Context;
@@ -19,8 +19,8 @@ pub(super) fn record(context: &mut Context) -> Result<()> {
     let seed = context.seed();
     let bounds = (0..polynomials / STRIDE)
         .into_par_iter()
-        .map(|block| {
-            let sum = bounds_of_block(seed, block);
+        .map_init(Solver::new, |solver, block| {
+            let sum = bounds_of_block(seed, block, solver);
             bar.inc(STRIDE);
             sum
         })
@@ -37,7 +37,7 @@ pub(super) fn record(context: &mut Context) -> Result<()> {
 
     let degrees: &[usize] = context.pick(&[3, 5, 8, 12, 20, 40], &[3, 5, 8]);
     let items = context.pick(100, 10);
-    let (missed, false_roots) = roots_against_sturm(degrees, items)?;
+    let (missed, false_roots) = judge_roots(degrees, items)?;
     context.number("roots_missed", missed, Target::exactly(0));
     context.number("roots_false", false_roots, Target::exactly(0));
     Ok(())
@@ -60,12 +60,13 @@ impl Bounds {
     }
 }
 
-fn bounds_of_block(seed: u64, block: u64) -> Result<Bounds> {
+fn bounds_of_block(seed: u64, block: u64, solver: &mut Solver) -> Result<Bounds> {
     let mut random = SplitMix64::new((seed << 40) ^ block);
     let mut sum = Bounds::default();
     for _ in 0..STRIDE {
-        let p = integer_polynomial(&mut random);
-        let (violated, tighter) = check(&p, &mut random)?;
+        let (p, planted) = integer_polynomial(&mut random);
+        let count = planted.map_or_else(|| exact_count(&p, solver), Ok)?;
+        let (violated, tighter) = check(&p, count, &mut random, solver)?;
         sum.polynomials += 1;
         sum.violations += u64::from(violated);
         sum.tighter += u64::from(tighter);
@@ -78,22 +79,26 @@ fn below(n: u64, random: &mut SplitMix64) -> u64 {
 }
 
 /// Degree 1 to 7, integer coefficients: random small ones with zeros among them, or a product of linear factors with planted
-/// and repeated roots. All numbers that the bounds compute from them, with poles in eighths, are exact in `f64`.
-fn integer_polynomial(random: &mut SplitMix64) -> Vec<f64> {
+/// and repeated roots, whose number in `[0, 1]` is returned too. All numbers that the bounds compute from them, with poles in
+/// eighths, are exact in `f64`.
+fn integer_polynomial(random: &mut SplitMix64) -> (Vec<f64>, Option<usize>) {
     let degree = 1 + below(7, random) as usize;
     if below(2, random) == 0 {
-        return (0..=degree)
+        let p = (0..=degree)
             .map(|_| below(9, random) as f64 - 4.0)
             .collect();
+        return (p, None);
     }
     // Scaled coefficients c_i = C(n,i) p_i multiply like powers; 4 t - k is (4 - k) t - k (1 - t).
     let mut scaled = vec![1.0];
     let mut factor = [0.0; 2];
+    let mut planted = 0;
     for k in 0..degree {
         if k == 0 || below(3, random) > 0 {
             let root = below(7, random) as f64 - 1.0;
             factor = [-root, 4.0 - root];
         }
+        planted += usize::from(factor[0] <= 0.0 && factor[1] >= 0.0);
         let mut next = vec![0.0; scaled.len() + 1];
         for (i, c) in scaled.iter().enumerate() {
             next[i] += c * factor[0];
@@ -108,11 +113,12 @@ fn integer_polynomial(random: &mut SplitMix64) -> Vec<f64> {
     let multiple = binomials
         .iter()
         .fold(1_u64, |m, b| m / greatest_common_divisor(m, *b) * b);
-    scaled
+    let p = scaled
         .iter()
         .zip(binomials)
         .map(|(c, b)| c * (multiple / b) as f64)
-        .collect()
+        .collect();
+    (p, Some(planted))
 }
 
 fn greatest_common_divisor(a: u64, b: u64) -> u64 {
@@ -123,16 +129,31 @@ fn greatest_common_divisor(a: u64, b: u64) -> u64 {
     }
 }
 
-/// `Z`, exactly, by Sturm's theorem; the degree plus one for the zero polynomial.
-fn exact_count(p: &[f64]) -> usize {
-    SturmChain::try_new(p).map_or(p.len(), |chain| chain.root_count())
+/// `Z`, exactly; the degree plus one for the zero polynomial. The roots are the solver's, the judge confirms every one.
+fn exact_count(p: &[f64], solver: &mut Solver) -> Result<usize> {
+    if p.iter().all(|p| *p == 0.0) {
+        return Ok(p.len());
+    }
+    let roots = solver.roots(p)?;
+    ensure!(
+        Verdict::of(p, roots)? == Verdict::default(),
+        "wrong roots of {p:?}"
+    );
+    Ok(roots
+        .iter()
+        .filter_map(variation::Root::multiplicity)
+        .sum::<u32>() as usize)
 }
 
 /// Whether a bound is violated, and whether poles give a smaller one than the control polygon.
-fn check(p: &[f64], random: &mut SplitMix64) -> Result<(bool, bool)> {
+fn check(
+    p: &[f64],
+    count: usize,
+    random: &mut SplitMix64,
+    solver: &mut Solver,
+) -> Result<(bool, bool)> {
     let degree = p.len() - 1;
     let eighth = |random: &mut SplitMix64| below(9, random) as f64 / 8.0;
-    let count = exact_count(p);
     let single = pole_bound(p, &eighth(random))?;
     let (k, l) = (
         below(degree as u64 + 1, random) as usize,
@@ -146,8 +167,8 @@ fn check(p: &[f64], random: &mut SplitMix64) -> Result<(bool, bool)> {
     let greedy = chain_bound_by(p, degree.min(3), PoleStrategy::Halving)?;
     let plain = chain_bound(p, &[])?;
     let least = [
-        single.total(exact_count(&single.middle)),
-        part.total(exact_count(&part.middle)),
+        single.total(exact_count(&single.middle, solver)?),
+        part.total(exact_count(&part.middle, solver)?),
         chain.printed,
         // For the zero polynomial Z exceeds the degree; parity and sharpening are for the others.
         if count > degree {
@@ -163,7 +184,7 @@ fn check(p: &[f64], random: &mut SplitMix64) -> Result<(bool, bool)> {
 }
 
 /// Missed roots, and false ones or ones of the wrong multiplicity, over the sets U, K, A, C, M and L.
-fn roots_against_sturm(degrees: &[usize], items: u64) -> Result<(usize, usize)> {
+fn judge_roots(degrees: &[usize], items: u64) -> Result<(usize, usize)> {
     let sets = [
         Set::Uniform,
         Set::Known,
@@ -183,7 +204,7 @@ fn roots_against_sturm(degrees: &[usize], items: u64) -> Result<(usize, usize)> 
         .par_iter()
         .map_init(Solver::new, |solver, p| {
             let roots = solver.roots(p)?;
-            let verdict = SturmChain::try_new(p)?.judge(roots);
+            let verdict = Verdict::of(p, roots)?;
             Ok((
                 verdict.missed,
                 verdict.false_roots + verdict.wrong_multiplicities,
