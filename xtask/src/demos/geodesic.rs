@@ -9,7 +9,9 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Result, ensure};
-use geodesic::{GeodesicPath, Mesh as Surface, PathFinder, Start, Sweep, TriangleSoup, shapes};
+use geodesic::{
+    DistanceField, GeodesicPath, Mesh as Surface, PathFinder, Start, Sweep, TriangleSoup, shapes,
+};
 use glam::{DVec2, DVec3};
 use serde_json::json;
 
@@ -309,14 +311,20 @@ fn render(
     pairs: &[[u32; 2]],
     paths: &[GeodesicPath],
 ) -> Result<()> {
-    let distances = distances(mesh, pairs[0][0])?;
+    let mut sweep = Sweep::new(mesh);
+    let field = sweep.from_points(&[pairs[0][0].into()])?;
+    // 0 where there is no way.
+    let reached = |d: &f64| if d.is_finite() { *d } else { 0.0 };
+    let distances: Vec<f64> = field.vertex_distances().iter().map(reached).collect();
     let farthest = distances.iter().copied().fold(0.0, f64::max);
     let size = mesh.diameter();
-    let material = Material::scalar(ColorMap::Sequential, 0.0, farthest).isolines(farthest / 16.0);
     let body =
         Mesh::smooth(mesh.positions().to_vec(), mesh.faces().to_vec()).with_scalar(distances);
     let mut scene = Scene::new();
-    scene.add(body, material)?;
+    scene.add(body, Material::scalar(ColorMap::Sequential, 0.0, farthest))?;
+    let lines = isolines(context, &field, farthest, size)?;
+    let count = lines.positions.len();
+    scene.add(lines.with_scalar(vec![0.0; count]), Material::glossy(INK))?;
     let mut tubes = Mesh::default();
     for path in paths.iter().take(24) {
         let mut points = path.positions().to_vec();
@@ -349,12 +357,29 @@ fn render(
     )
 }
 
-/// The exact distance of every vertex from one; 0 where there is no way.
-fn distances(mesh: &Surface, source: u32) -> Result<Vec<f64>> {
-    let mut sweep = Sweep::new(mesh);
-    let field = sweep.from_points(&[source.into()])?;
-    let reached = |d: &f64| if d.is_finite() { *d } else { 0.0 };
-    Ok(field.vertex_distances().iter().map(reached).collect())
+/// Thin tubes along the lines of equal distance, fifteen levels of them.
+fn isolines(
+    context: &mut Context,
+    field: &DistanceField<'_, '_>,
+    farthest: f64,
+    size: f64,
+) -> Result<Mesh> {
+    let (mut tubes, mut count, mut worst) = (Mesh::default(), 0, 0.0_f64);
+    for k in 1..16 {
+        let level = farthest * f64::from(k) / 16.0;
+        for line in field.isolines(level, 1e-4 * size)? {
+            count += 1;
+            for &point in &line.points {
+                worst = worst.max((field.distance(point)? - level).abs() / farthest);
+            }
+            let mut points = line.positions;
+            points.dedup_by(|a, b| a.distance(*b) < 2e-3 * size);
+            tubes.append(Mesh::tube(&points, 1e-3 * size, line.is_closed));
+        }
+    }
+    context.number("isolines", count, Target::Free);
+    context.number("isoline_max_error", worst, Target::AtMost(1e-9));
+    Ok(tubes)
 }
 
 /// A sphere with bumps.

@@ -146,14 +146,7 @@ impl DistanceField<'_, '_> {
                 });
             }
         }
-        fans.retain(|fan| {
-            let radius = level - fan.base;
-            let farthest = corners
-                .map(|c| c.distance(fan.centre))
-                .into_iter()
-                .fold(0.0, f64::max);
-            radius > 0.0 && radius <= farthest && fan.width > 0.0
-        });
+        fans.retain(|fan| fan.base < level && fan.width > 0.0);
         fans
     }
 }
@@ -196,6 +189,9 @@ fn arcs_in_face(
     let mut cuts = Vec::new();
     for (i, fan) in fans.iter().enumerate() {
         let radius = level - fan.base;
+        if corners.iter().all(|c| c.distance(fan.centre) < radius) {
+            continue;
+        }
         let at = |turn: f64| fan.centre + radius * DVec2::from_angle(fan.low + turn);
         cuts.clear();
         cuts.extend([0.0, fan.width]);
@@ -423,6 +419,38 @@ mod tests {
         }
         let beyond = field.isolines(6.5, 1e-3).unwrap();
         assert!(!beyond.is_empty() && beyond.iter().all(|line| !line.is_closed));
+    }
+
+    /// On a rough terrain lines end at the boundary only, and their points have the distance.
+    #[test]
+    fn on_a_rough_terrain_they_end_at_the_boundary() {
+        let height = |x: f64, y: f64| (0.9 * x).sin() * (0.7 * y).cos() + 0.3 * (3.1 * x * y).sin();
+        let mesh = shapes::sheet(30, 30, |p| p.extend(height(p.x, p.y))).unwrap();
+        let mut sweep = Sweep::new(&mesh);
+        let field = sweep.from_points(&[200.into()]).unwrap();
+        let farthest = field.vertex_distances().iter().copied().fold(0.0, f64::max);
+        let is_on_boundary = |p: DVec3| {
+            [p.x, p.y, 30.0 - p.x, 30.0 - p.y]
+                .iter()
+                .any(|d| d.abs() < 1e-9)
+        };
+        for k in 1..32 {
+            let level = farthest * f64::from(k) / 32.0;
+            for line in field.isolines(level, 1e-3).unwrap() {
+                for &point in &line.points {
+                    let distance = field.distance(point).unwrap();
+                    assert!(
+                        (distance - level).abs() < 1e-9 * farthest,
+                        "level {level}: {distance}"
+                    );
+                }
+                let ends = [line.positions[0], line.positions[line.positions.len() - 1]];
+                assert!(
+                    line.is_closed || ends.map(is_on_boundary) == [true, true],
+                    "level {level}: {ends:?}"
+                );
+            }
+        }
     }
 
     /// On a bumpy sphere, with ridges where fronts meet: all lines close, and their points have the distance.
