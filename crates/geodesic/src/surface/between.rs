@@ -20,8 +20,13 @@ const STRETCHES: [usize; 3] = [12, 48, 192];
 /// Rounds of Newton's method; from the path of a fine polyhedron it takes five or six.
 const MOST_ROUNDS: usize = 60;
 
-/// Error allowed to each step of the integration.
+/// Error allowed to each step of the integration in the end.
 const STEP_ERROR: f64 = 1e-13;
+
+/// Error allowed to each step at first, and then as a part of the residual: while nodes are far from where they belong,
+/// exact stretches between them are a waste, of ten times as many steps.
+const FIRST_STEP_ERROR: f64 = 1e-8;
+const STEP_SHARE: f64 = 1e-3;
 
 /// A node is not turned, nor moved across by more than this part of a stretch, in one round.
 const TRUST: f64 = 0.4;
@@ -214,12 +219,15 @@ impl Shooting {
         surface: &impl SmoothSurface,
         tolerance: f64,
     ) -> Result<SmoothGeodesic, Error> {
-        let mut last = f64::INFINITY;
+        let (mut last, mut settled) = (f64::INFINITY, false);
         for _ in 0..MOST_ROUNDS {
-            let misses = self.misses(surface)?;
+            let step_error = (STEP_SHARE * last).clamp(STEP_ERROR, FIRST_STEP_ERROR);
+            let misses = self.misses(surface, step_error)?;
             let residual = self.residual(&misses);
             let correction = correct(&misses).ok_or(Error::NotConverged { updates: 0 })?;
-            if residual <= tolerance || (residual < FLOOR && residual > 0.5 * last) {
+            let stuck = settled && residual < FLOOR && residual > 0.5 * last;
+            settled = step_error <= STEP_ERROR.max(0.1 * tolerance);
+            if settled && (residual <= tolerance || stuck) {
                 return self.finish(surface, residual, correction.negative_pivots);
             }
             last = residual;
@@ -230,11 +238,11 @@ impl Shooting {
         })
     }
 
-    fn misses(&self, surface: &impl SmoothSurface) -> Result<Vec<Miss>, Error> {
+    fn misses(&self, surface: &impl SmoothSurface, step_error: f64) -> Result<Vec<Miss>, Error> {
         let stretches = self.nodes.windows(2).zip(&self.stretches);
         stretches
             .map(|(ends, &length)| {
-                let Arrival { ray, neighbours } = flow(surface, ends[0], length, STEP_ERROR)?;
+                let Arrival { ray, neighbours } = flow(surface, ends[0], length, step_error)?;
                 let jet = surface.jet(ray.uv);
                 let gap = ends[1].uv - ray.uv;
                 let left = jet.left_of(ray.direction);
