@@ -302,7 +302,7 @@ impl<'a, C: PlaneCurve + ?Sized> Builder<'a, C> {
         Ok(())
     }
 
-    /// Adds a part of monotone curvature, cut until each part is within the tolerance.
+    /// Adds a part without inflection, cut until each part is within the tolerance.
     fn monotone(&mut self, whole: Interval) -> Result<(), Error> {
         self.stack.push(whole);
         while let Some(interval) = self.stack.pop() {

@@ -1,4 +1,4 @@
-//! Splines of class-3 arcs and straight segments, whose offsets are exact.
+//! Splines of PH arcs and straight segments, whose offsets are exact.
 
 use bezier_mass::BezierCurve;
 use glam::DVec2;
@@ -20,8 +20,9 @@ pub enum Joint {
 /// A chain of PH arcs and straight segments with continuous normal: a front, not only a curve.
 ///
 /// Corners are arcs of radius zero that turn the normal, so that every offset is again such a chain: a corner becomes
-/// a circular arc on its outer side; only trimmed splines have joints of kind [`Joint::Corner`]. The offset at distance d moves every point by d along its normal, to the
-/// *right* of travel for positive d. It is exact, and it may have cusps and loops; see [`ArcSpline::trimmed_offset`].
+/// a circular arc on its outer side; only trimmed splines have joints of kind [`Joint::Corner`]. The offset at distance d
+/// moves every point by d along its normal, to the *right* of travel for positive d. It is exact, and it may have cusps and
+/// loops; see [`ArcSpline::trimmed_offset`].
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ArcSpline {

@@ -23,6 +23,7 @@ use crate::{Error, arc_length::bernstein_from_powers};
 /// The piece is the part of this arc between two parameters, run through in either sense.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "StoredArc", into = "StoredArc"))]
 pub struct InflectedArc {
     origin: DVec2,
     w0: DVec2,
@@ -346,6 +347,47 @@ impl InflectedArc {
             part.reverse();
         }
         part
+    }
+}
+
+/// The form in which an arc is serialized.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct StoredArc {
+    origin: DVec2,
+    spinors: [DVec2; 2],
+    r: [f64; 7],
+    distance: f64,
+    range: [f64; 2],
+}
+
+#[cfg(feature = "serde")]
+impl From<InflectedArc> for StoredArc {
+    fn from(arc: InflectedArc) -> Self {
+        Self {
+            origin: arc.origin,
+            spinors: [arc.w0, arc.w1],
+            r: arc.r,
+            distance: arc.distance,
+            range: arc.range,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredArc> for InflectedArc {
+    type Error = Error;
+
+    fn try_from(stored: StoredArc) -> Result<Self, Error> {
+        let [from, to] = stored.range;
+        if !stored.distance.is_finite() {
+            return Err(Error::NonFinite {
+                what: "an offset distance",
+            });
+        }
+        let whole = Self::new(stored.origin, stored.spinors, stored.r)?.offset(stored.distance);
+        let part = whole.part(from.min(to), from.max(to))?;
+        Ok(if from > to { part.reverse() } else { part })
     }
 }
 
