@@ -77,6 +77,57 @@ fn a_tangent_line_is_hit_once_with_multiplicity_two() {
     assert_eq!(hits[0].point.y, 1.0);
 }
 
+/// Fractions that are no binary ones: every coefficient of the derived polynomial is rounded, the first is zero.
+#[cfg(feature = "exact")]
+#[test]
+fn a_segment_from_the_end_of_a_curve_meets_it_exactly_there() {
+    let p: Vec<DVec2> = (0..=12)
+        .map(|i| DVec2::new(0.1 + f64::from(i) / 12.0, (1.7 * f64::from(i)).sin() + 0.3))
+        .collect();
+    let hits = Curve::polynomial(&p)
+        .unwrap()
+        .meet_segment(p[0], p[0] + DVec2::new(0.7, 0.1))
+        .unwrap();
+    assert_eq!(hits.len(), 2);
+    assert_eq!((hits[0].root.lo, hits[0].root.hi), (0.0, 0.0));
+    assert_eq!(hits[0].root.multiplicity(), Some(1));
+}
+
+#[cfg(feature = "exact")]
+#[test]
+fn near_a_tangent_line_there_are_two_hits_or_none() {
+    let p = points([(0.0, 0.0), (0.3, 0.7), (0.7, 0.7), (1.0, 0.0)]);
+    let curve = Curve::polynomial(&p).unwrap();
+    let top = curve.point(0.5).y;
+    for (offset, hits) in [(-1e-13, 2), (1e-13, 0), (-1e-15, 2), (1e-15, 0)] {
+        let y = top + offset;
+        let found = curve
+            .meet_segment(DVec2::new(-1.0, y), DVec2::new(2.0, y))
+            .unwrap();
+        assert_eq!(found.len(), hits, "{offset}: {found:?}");
+        assert!(found.iter().all(|hit| hit.root.multiplicity() == Some(1)));
+    }
+}
+
+#[test]
+fn hits_with_a_rational_curve_and_their_bound_without_solving() {
+    let p = points([(0.0, -1.0), (1.0, 3.0), (2.0, 3.0), (3.0, -1.0)]);
+    let curve = Curve::rational(&p, &[1.0, 3.0, 3.0, 1.0]).unwrap();
+    let line = |y: f64| Line::try_new(0.0, 1.0, -y).unwrap();
+    assert_eq!(curve.meet_line(line(0.0)).unwrap().len(), 2);
+    assert_eq!(curve.line_bound(line(0.0), &[]).unwrap().best, 2);
+    for hit in curve.meet_line(line(0.0)).unwrap() {
+        assert!(hit.point.y.abs() < 1e-11);
+    }
+    // The polygon crosses, the curve does not; one pole sees that.
+    assert!(curve.meet_line(line(2.9)).unwrap().is_empty());
+    assert_eq!(curve.line_bound(line(2.9), &[]).unwrap().best, 2);
+    assert_eq!(
+        curve.line_bound(line(2.9), &[0.5, 0.5, 0.5]).unwrap().best,
+        0
+    );
+}
+
 #[test]
 fn circle_and_conic_agree() {
     let p = points([(-2.0, -0.5), (-1.0, 3.0), (1.0, -3.0), (2.0, 0.5)]);
