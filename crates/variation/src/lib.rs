@@ -95,6 +95,7 @@
 #[doc = include_str!("../README.md")]
 struct ReadmeDoctests;
 
+mod arc;
 mod arithmetic;
 mod bound;
 mod cubic;
@@ -104,6 +105,7 @@ mod dyadic;
 mod error;
 #[cfg(feature = "exact")]
 mod exact;
+mod fat_line;
 mod input;
 mod isolate;
 #[cfg(feature = "exact")]

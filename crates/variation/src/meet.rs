@@ -3,13 +3,13 @@
 //! Subdivision with fat lines (Sederberg and Nishita 1990) discards, tangent cones (Sederberg and Meyers 1988) prove: arcs
 //! whose tangent directions lie in disjoint cones cross at most once, and they do if the ends of each lie on opposite sides
 //! of the other's fat line. A tangency or an end on the other curve has no such proof and is reported as undecided.
-//!
-//! The tangents of a polynomial or rational arc with positive weights lie in the cone of the edges of its control polygon.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use crate::Error;
+use crate::arc::Arc;
 use crate::curve::Curve;
+use crate::fat_line::{FatLine, Side};
 use crate::rounding::U;
 
 /// Two arcs narrower than this in the parameter are not subdivided further.
@@ -20,9 +20,6 @@ const MAX_PAIRS: usize = 1 << 16;
 
 /// Half widths tried for the enclosure of a crossing.
 const REACHES: [f64; 4] = [1e-13, 1e-12, 1e-11, 1e-9];
-
-/// Cones closer than this angle are not called disjoint; angles are computed to a few `f64::EPSILON`.
-const CONE_MARGIN: f64 = 1e-12;
 
 /// A place where two curves meet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,206 +94,6 @@ impl Curve<'_> {
         }
         search.run(apart)?;
         Ok(search.finish())
-    }
-}
-
-/// A subarc with its own control points, homogeneous.
-#[derive(Clone, Debug)]
-struct Arc {
-    lo: f64,
-    hi: f64,
-    net: Vec<DVec3>,
-}
-
-/// A range of directions: angles `from..=to` about a base angle.
-#[derive(Clone, Copy, Debug)]
-struct Cone {
-    base: f64,
-    from: f64,
-    to: f64,
-}
-
-impl Cone {
-    /// Whether no direction of one is a direction, or the opposite of a direction, of the other.
-    fn is_apart_from(self, other: Self) -> bool {
-        use std::f64::consts::PI;
-        let turn = (other.base - self.base).rem_euclid(PI);
-        [turn - PI, turn, turn + PI].iter().all(|turn| {
-            turn + other.from > self.to + CONE_MARGIN || turn + other.to < self.from - CONE_MARGIN
-        })
-    }
-}
-
-impl Arc {
-    fn whole(curve: Curve<'_>) -> Self {
-        Self {
-            lo: 0.0,
-            hi: 1.0,
-            net: curve
-                .weighted_points()
-                .map(|(p, w)| (p * w).extend(w))
-                .collect(),
-        }
-    }
-
-    fn width(&self) -> f64 {
-        self.hi - self.lo
-    }
-
-    fn points(&self) -> impl DoubleEndedIterator<Item = DVec2> + Clone {
-        self.net.iter().map(|p| p.truncate() / p.z)
-    }
-
-    fn edges(&self) -> impl Iterator<Item = DVec2> + Clone {
-        self.points().zip(self.points().skip(1)).map(|(p, q)| q - p)
-    }
-
-    fn ends(&self) -> [DVec2; 2] {
-        let point = |p: Option<&DVec3>| p.map_or(DVec2::NAN, |p| p.truncate() / p.z);
-        [point(self.net.first()), point(self.net.last())]
-    }
-
-    /// The cone of the edges, if it is narrower than a half plane.
-    fn cone(&self) -> Option<Cone> {
-        Self::cone_of(self.edges())
-    }
-
-    fn cone_of(edges: impl Iterator<Item = DVec2> + Clone) -> Option<Cone> {
-        let axis: DVec2 = edges.clone().sum();
-        if axis == DVec2::ZERO {
-            return None;
-        }
-        let (mut from, mut to) = (0.0_f64, 0.0_f64);
-        for edge in edges.filter(|edge| *edge != DVec2::ZERO) {
-            if axis.dot(edge) <= 0.0 {
-                return None;
-            }
-            let angle = axis.angle_to(edge);
-            (from, to) = (from.min(angle), to.max(angle));
-        }
-        Some(Cone {
-            base: axis.to_angle(),
-            from,
-            to,
-        })
-    }
-
-    /// The parts before and after the share `z`.
-    fn cut(&self, z: f64) -> (Self, Self) {
-        let mut row = self.net.clone();
-        let mut left = Vec::with_capacity(row.len());
-        let degree = row.len() - 1;
-        left.push(row[0]);
-        for j in 1..=degree {
-            for i in 0..=degree - j {
-                row[i] = row[i] * (1.0 - z) + row[i + 1] * z;
-            }
-            left.push(row[0]);
-        }
-        let middle = self.lo + self.width() * z;
-        (
-            Self {
-                lo: self.lo,
-                hi: middle,
-                net: left,
-            },
-            Self {
-                lo: middle,
-                hi: self.hi,
-                net: row,
-            },
-        )
-    }
-
-    fn halves(&self) -> (Self, Self) {
-        self.cut(0.5)
-    }
-
-    /// The part between two parameters.
-    fn between(&self, lo: f64, hi: f64) -> Self {
-        let (left, _) = self.cut(((hi - self.lo) / self.width()).min(1.0));
-        let (_, part) = left.cut(((lo - self.lo) / (hi - self.lo)).max(0.0));
-        Self { lo, hi, ..part }
-    }
-
-    /// Point and derivative at a share of the arc.
-    fn local(&self, z: f64) -> (DVec2, DVec2) {
-        let mut row = self.net.clone();
-        let degree = row.len() - 1;
-        while row.len() > 2 {
-            for i in 0..row.len() - 1 {
-                row[i] = row[i] * (1.0 - z) + row[i + 1] * z;
-            }
-            row.pop();
-        }
-        let (p, q) = (row[0], row[row.len() - 1]);
-        let at = p * (1.0 - z) + q * z;
-        let slope = (q - p) * degree as f64;
-        let point = at.truncate() / at.z;
-        (point, (slope.truncate() - point * slope.z) / at.z)
-    }
-}
-
-/// Where points lie relative to a fat line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Side {
-    Left,
-    Right,
-    Within,
-}
-
-/// The strip along the chord of an arc that holds its control points. Extended by its chord direction at both ends, the arc
-/// divides the plane inside this strip.
-#[derive(Clone, Copy, Debug)]
-struct FatLine {
-    origin: DVec2,
-    normal: DVec2,
-    least: f64,
-    most: f64,
-}
-
-impl FatLine {
-    fn of(arc: &Arc, slack: f64) -> Self {
-        let [from, to] = arc.ends();
-        let chord = to - from;
-        let normal = if chord == DVec2::ZERO {
-            DVec2::X
-        } else {
-            chord.perp()
-        };
-        let (mut least, mut most) = (0.0_f64, 0.0_f64);
-        for p in arc.points() {
-            let height = (p - from).dot(normal);
-            (least, most) = (least.min(height), most.max(height));
-        }
-        let slack = slack * normal.length();
-        Self {
-            origin: from,
-            normal,
-            least: least - slack,
-            most: most + slack,
-        }
-    }
-
-    fn side(&self, p: DVec2) -> Side {
-        let height = (p - self.origin).dot(self.normal);
-        if height > self.most {
-            Side::Left
-        } else if height < self.least {
-            Side::Right
-        } else {
-            Side::Within
-        }
-    }
-
-    /// The side on which all points lie, or `Within`.
-    fn common_side(&self, mut points: impl Iterator<Item = DVec2>) -> Side {
-        let first = points.next().map_or(Side::Within, |p| self.side(p));
-        if points.all(|p| self.side(p) == first) {
-            first
-        } else {
-            Side::Within
-        }
     }
 }
 
