@@ -23,10 +23,10 @@ const MOST_ROUNDS: usize = 60;
 /// Error allowed to each step of the integration in the end.
 const STEP_ERROR: f64 = 1e-13;
 
-/// Error allowed to each step at first, and then as a part of the residual: while nodes are far from where they belong,
-/// exact stretches between them are a waste, of ten times as many steps.
+/// Error allowed to each step while the residual is above the other number: where nodes are far from where they belong, exact
+/// stretches between them, of ten times as many steps, are a waste.
 const FIRST_STEP_ERROR: f64 = 1e-8;
-const STEP_SHARE: f64 = 1e-3;
+const FAR_OFF: f64 = 1e-3;
 
 /// A node is not turned, nor moved across by more than this part of a stretch, in one round.
 const TRUST: f64 = 0.4;
@@ -219,17 +219,18 @@ impl Shooting {
         surface: &impl SmoothSurface,
         tolerance: f64,
     ) -> Result<SmoothGeodesic, Error> {
-        let (mut last, mut settled) = (f64::INFINITY, false);
+        let (mut last, mut was_fine) = (f64::INFINITY, false);
         for _ in 0..MOST_ROUNDS {
-            let step_error = (STEP_SHARE * last).clamp(STEP_ERROR, FIRST_STEP_ERROR);
+            let fine = last <= FAR_OFF;
+            let step_error = if fine { STEP_ERROR } else { FIRST_STEP_ERROR };
             let misses = self.misses(surface, step_error)?;
             let residual = self.residual(&misses);
             let correction = correct(&misses).ok_or(Error::NotConverged { updates: 0 })?;
-            let stuck = settled && residual < FLOOR && residual > 0.5 * last;
-            settled = step_error <= STEP_ERROR.max(0.1 * tolerance);
-            if settled && (residual <= tolerance || stuck) {
+            let stuck = was_fine && residual < FLOOR && residual > 0.5 * last;
+            if fine && (residual <= tolerance || stuck) {
                 return self.finish(surface, residual, correction.negative_pivots);
             }
+            was_fine = fine;
             last = residual;
             self.apply(surface, &misses, &correction);
         }
