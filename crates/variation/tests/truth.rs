@@ -100,3 +100,21 @@ fn small_integers() {
         }
     }
 }
+
+/// Degrees 3 to 5 near every decision of the direct paths: small integers, and the same moved by little.
+#[test]
+fn nearly_degenerate_polynomials_of_low_degree() {
+    let mut random = SplitMix64::new(3);
+    let mut solver = Solver::new();
+    for k in 0..30_000_usize {
+        let polynomial: Vec<f64> = (0..=3 + k % 3)
+            .map(|_| {
+                let moved = 2.0_f64.powi(-((random.bits() % 60) as i32)) * (random.unit() - 0.5);
+                (random.bits() % 7) as f64 - 3.0 + if k % 2 == 0 { moved } else { 0.0 }
+            })
+            .collect();
+        if polynomial.iter().any(|p| *p != 0.0) {
+            judge(&mut solver, &polynomial, &format!("low degree {k}"));
+        }
+    }
+}
