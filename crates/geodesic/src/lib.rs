@@ -52,7 +52,8 @@
 //!
 //! A path from [`PathFinder`] is a *locally* shortest one: no small change makes it shorter. [`GeodesicPath::certify`]
 //! examines it anew from its points alone. That it is the shortest of all is not promised: on closed meshes it often is,
-//! and otherwise it is longer by a few parts in a thousand on average.
+//! and otherwise it is longer by a few parts in a thousand on average. [`Sweep::shorten_globally`] proves it or finds the
+//! shortest one. Distances from a [`Sweep`] are exact to rounding.
 //!
 //! # Conventions
 //!
@@ -63,7 +64,8 @@
 //! # Features
 //!
 //! On by default: `obj` (OBJ files, by tobj), `triangulate` (terrains and parametric meshes, by spade), `closest-point`
-//! (by obvhs). Off by default: `serde`, `rayon`.
+//! (by obvhs). Off by default: `serde`; `rayon`, which answers
+//! [`shortest_paths`], [`exact_distances`] and [`exact_distances_to_all`] on all cores.
 //!
 //! # References
 //!

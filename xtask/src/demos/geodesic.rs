@@ -323,8 +323,9 @@ fn render(
     let mut scene = Scene::new();
     scene.add(body, Material::scalar(ColorMap::Sequential, 0.0, farthest))?;
     let lines = isolines(context, &field, farthest, size)?;
-    let count = lines.positions.len();
-    scene.add(lines.with_scalar(vec![0.0; count]), Material::glossy(INK))?;
+    if !lines.positions.is_empty() {
+        scene.add(lines, Material::glossy(INK))?;
+    }
     let mut tubes = Mesh::default();
     for path in paths.iter().take(24) {
         let mut points = path.positions().to_vec();
@@ -374,7 +375,9 @@ fn isolines(
             }
             let mut points = line.positions;
             points.dedup_by(|a, b| a.distance(*b) < 2e-3 * size);
-            tubes.append(Mesh::tube(&points, 1e-3 * size, line.is_closed));
+            // Of their own distance, for the layer in the EXR file.
+            let tube = Mesh::tube(&points, 1e-3 * size, line.is_closed);
+            tubes.append(tube.with_scalar_at(|_| level));
         }
     }
     context.number("isolines", count, Target::Free);
