@@ -25,6 +25,7 @@ use crate::tiers::{DEFAULT_TOLERANCE, Fixed, Options, Scratch, largest, numbers_
 /// assert_eq!(roots[0].multiplicity(), Some(2));
 /// # Ok::<(), variation::Error>(())
 /// ```
+#[inline]
 pub fn roots(coefficients: &[f64]) -> Result<Roots, Error> {
     roots_on(coefficients, Interval::UNIT)
 }
@@ -33,6 +34,7 @@ pub fn roots(coefficients: &[f64]) -> Result<Roots, Error> {
 ///
 /// # Errors
 /// As [`roots`].
+#[inline]
 pub fn roots_on(coefficients: &[f64], interval: Interval) -> Result<Roots, Error> {
     if coefficients.len() > INLINE + 1 {
         return Solver::new()
