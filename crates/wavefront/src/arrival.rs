@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::fan::Run;
-use crate::model::Landing;
+use crate::trace::Landing;
 use crate::{Fan, Ray};
 
 /// A wave's arrival at a point.

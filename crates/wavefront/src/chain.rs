@@ -40,6 +40,8 @@ const GUIDED_STEPS: usize = 10;
 const CONVERGED: f64 = 1e-8;
 /// A piece of a higher degree is not put in powers, where digits would be lost.
 const MOST_POWERS: usize = 8;
+/// The pieces of a chain meet to this share of one and their distance from the origin.
+const JOINT: f64 = 1e-6;
 /// Boxes are widened by this share of their size, against rounding.
 const MARGIN: f64 = 1e-12;
 
@@ -52,6 +54,17 @@ impl Chain {
         };
         if pieces.is_empty() {
             return Err(bad("a curve without pieces"));
+        }
+        for (first, second) in pieces.iter().zip(pieces.iter().skip(1)) {
+            let (end, start) = (
+                first.curve.at(1.0).position(),
+                second.curve.at(0.0).position(),
+            );
+            if let (Some(end), Some(start)) = (end, start)
+                && end.distance(start) > JOINT * (1.0 + end.length())
+            {
+                return Err(bad("two neighbouring pieces of a curve do not meet"));
+            }
         }
         let leaves = pieces.len().next_power_of_two();
         let mut boxes = vec![Bounds::EMPTY; 2 * leaves];
@@ -69,6 +82,10 @@ impl Chain {
 
     pub(crate) fn piece_count(&self) -> usize {
         self.pieces.len()
+    }
+
+    pub(crate) fn may_enter(&self, low: DVec2, high: DVec2) -> bool {
+        self.boxes[1].overlaps(low, high)
     }
 
     pub(crate) fn point(&self, parameter: f64) -> Option<DVec2> {

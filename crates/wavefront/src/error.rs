@@ -124,3 +124,30 @@ pub enum Error {
     #[error(transparent)]
     Roots(#[from] variation::Error),
 }
+
+impl Error {
+    /// The same error with the number of the interface that is at fault in a model, for the shapes that were built on their
+    /// own.
+    #[must_use]
+    pub fn at_interface(self, number: usize) -> Self {
+        match self {
+            Self::BadInterface { reason, .. } => Self::BadInterface {
+                interface: number,
+                reason,
+            },
+            Self::NonFinite { .. } => Self::BadInterface {
+                interface: number,
+                reason: "a coordinate is not finite",
+            },
+            Self::ZeroDirection { .. } => Self::BadInterface {
+                interface: number,
+                reason: "its direction has length zero",
+            },
+            Self::OutOfRange { .. } => Self::BadInterface {
+                interface: number,
+                reason: "its pieces have no width",
+            },
+            other => other,
+        }
+    }
+}

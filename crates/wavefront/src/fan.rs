@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use crate::model::{Failure, Landing};
 use crate::strip::{Knot, Strip};
+use crate::trace::{Failure, Landing};
 use crate::{Code, Cut, Error, Front, FrontTolerance, Model, Ray, Source, Trace};
 
 /// The exact rays of a source with one history, as a table over the source's parameter from which rays to given points
@@ -60,6 +60,8 @@ impl Default for FanOptions {
 const BOUNDARY: f64 = 1e-13;
 /// Between two rays that fail in different ways a window with rays is looked for by this many halvings.
 const WINDOW_SEARCH: u32 = 8;
+/// And between two that fail alike by this many.
+const WINDOW_GUESS: u32 = 2;
 /// A fan never holds more rays than this.
 const MOST_RAYS: usize = 1 << 16;
 /// Fronts keep this share of a run off a boundary: there, where rays graze, the very boundary ray has no neighbours.
@@ -372,7 +374,7 @@ impl<'f, 'm> Sampler<'f, 'm> {
             (Err(a), Err(b)) => {
                 let alike = a.step == b.step
                     && std::mem::discriminant(&a.error) == std::mem::discriminant(&b.error);
-                if !alike && depth < WINDOW_SEARCH {
+                if depth < if alike { WINDOW_GUESS } else { WINDOW_SEARCH } {
                     self.halve(one, two, depth);
                 }
             }

@@ -201,6 +201,19 @@ impl Interface {
         }
     }
 
+    /// Whether some of the interface may lie in a box; certain for a line, and by its control points for a curve.
+    pub(crate) fn may_enter(&self, low: DVec2, high: DVec2) -> bool {
+        match &self.shape {
+            Shape::Line { point, tangent } => {
+                let (centre, half) = (0.5 * (low + high) - *point, 0.5 * (high - low));
+                let reach = tangent.x.abs() * half.y + tangent.y.abs() * half.x;
+                tangent.perp_dot(centre).abs() <= reach
+            }
+            Shape::Conic(_) => true,
+            Shape::Curve(chain) => chain.may_enter(low, high),
+        }
+    }
+
     /// Points along the interface inside a box, in order, for drawing and for the checks of a model.
     #[must_use]
     pub fn polyline(&self, low: DVec2, high: DVec2, count: usize) -> Vec<DVec2> {

