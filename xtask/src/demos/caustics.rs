@@ -5,7 +5,7 @@
 //! cusp, parallel light onto half a kidney-shaped one; an ellipse gathers all rays from one focus in the other; a beam that
 //! enters a disc of refractive index two narrows to a cusp on the far side.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 use anyhow::{Context as _, Result};
 use glam::{DVec2, dvec2};
@@ -16,7 +16,7 @@ use wavefront::{
 
 use crate::color::{BLUE, GREEN, GREY, INK, MIST, VERMILION};
 use crate::demo::{Context, Demo};
-use crate::figure::{Figure, Marker, Path, Plot, Side};
+use crate::figure::{Figure, Marker, Path, Plot};
 use crate::report::Target;
 
 #[derive(clap::Args, Debug)]
@@ -347,13 +347,13 @@ impl Optics {
         }
         match self.closed_form {
             ClosedForm::Focus { point, .. } => {
-                plot.point(point, "focus", Side::Below, VERMILION.fill());
-                plot.point(-point, "source", Side::Below, INK.fill());
+                plot.points(&[point], Marker::Disc, VERMILION.fill().label("focus"));
+                plot.points(&[-point], Marker::Disc, INK.fill().label("source"));
             }
             ClosedForm::Curve { cusp, .. } => {
                 plot.points(&[cusp], Marker::Disc, GREEN.fill().label("cusp"));
                 if let Source::Point { position, .. } = self.source {
-                    plot.point(position, "source", Side::Below, INK.fill());
+                    plot.points(&[position], Marker::Disc, INK.fill().label("source"));
                 }
             }
         }
@@ -362,17 +362,9 @@ impl Optics {
 
     fn draw_front(&self, plot: &mut Plot, front: &Front) {
         for time in &self.times {
-            for stretch in front.snapshot(*time, 32) {
-                // What has run out of the boundary again is of no interest here.
-                let interface = &self.model.interfaces()[0];
-                let inside = |p: &DVec2| {
-                    interface.count_impacts(*p, DVec2::from_angle(FRAC_PI_2 + 0.1)) % 2 == 1
-                };
-                let cut: Vec<DVec2> = stretch
-                    .iter()
-                    .map(|p| if inside(p) { *p } else { DVec2::NAN })
-                    .collect();
-                plot.polyline(&cut, BLUE.line().width(1.0).label("fronts"));
+            // What has run out of the boundary again is of no interest here.
+            for stretch in front.snapshot_inside(&self.model, *time, 32) {
+                plot.polyline(&stretch, BLUE.line().width(1.0).label("fronts"));
             }
         }
         if let ClosedForm::Curve { .. } = self.closed_form {

@@ -195,7 +195,7 @@ impl Graph {
     }
 
     /// The same curve in Bézier pieces, over the whole box.
-    fn interface(&self, [low, high]: [DVec2; 2]) -> Result<Interface> {
+    fn interface(&self, [low, high]: [DVec2; 2]) -> Result<Interface, wavefront::Error> {
         let margin = high.x - low.x;
         let (first, last) = (self.samples[0].x, self.samples[self.samples.len() - 1].x);
         let mut knots = vec![first.min(low.x) - margin];
@@ -212,7 +212,7 @@ impl Graph {
             ])
         };
         let pieces: Vec<_> = knots.windows(2).map(piece).collect::<Result<_, _>>()?;
-        Ok(Interface::curve(pieces)?)
+        Interface::curve(pieces)
     }
 }
 
@@ -255,7 +255,7 @@ impl Survey {
         }
         let mut graphs = Vec::new();
         let mut interfaces = Vec::new();
-        for interface in &description.interfaces {
+        for (number, interface) in description.interfaces.iter().enumerate() {
             let (points, straight) = match interface {
                 InterfaceDescription::Line(points) => (points.as_slice(), true),
                 InterfaceDescription::Graph(points) => (points.as_slice(), false),
@@ -264,12 +264,13 @@ impl Survey {
             if straight {
                 points.sort_by(|a, b| a.x.total_cmp(&b.x));
             }
-            let graph = Graph::new(points)?;
-            interfaces.push(if straight {
-                Interface::line(graph.samples[0], graph.samples[1] - graph.samples[0])?
+            let graph = Graph::new(points).with_context(|| format!("interface {number}"))?;
+            let shape = if straight {
+                Interface::line(graph.samples[0], graph.samples[1] - graph.samples[0])
             } else {
-                graph.interface(corners)?
-            });
+                graph.interface(corners)
+            };
+            interfaces.push(shape.map_err(|error| error.at_interface(number))?);
             graphs.push(graph);
         }
         let model = Model::try_new(corners[0], corners[1], media, interfaces)?;
