@@ -50,16 +50,21 @@
 //! | [`Source`] | a point, a plane wave, an exploding reflector, or a front |
 //! | [`Ray`] | point, slowness, time and their derivatives along the wave: Snell's law and the ray tube |
 //! | [`Fan`] | all rays of a source with one code: [`Arrival`]s at receivers, boundaries of illumination |
+//! | [`Cut`] | where an illuminated stretch or a front ends, and why |
 //! | [`Front`] | a G1 spline of class-3 arcs: snapshots, cusps, caustics, arrivals |
 //! | [`DualSurface`] | fronts in space by their support function |
 //!
 //! # Accuracy
 //!
 //! Rays are exact to rounding: impacts on conics in closed form, on Bézier curves by certified roots, Snell's law by the
-//! conservation of the slowness along the interface. A ray through a receiver is found to 1e-10 of the model's size, and
-//! its time, being stationary, to the square of that. Fronts are fitted to a tolerance that is measured on other exact rays
-//! than those that were fitted. What is not certified: a ray pair that both sets out and returns between two sampled rays
-//! without showing in the slopes at their ends is missed; [`FanOptions`] sets how close samples are.
+//! conservation of the slowness along the interface. A fan keeps its rays as strips, dual cubic Bézier curves of lines; a
+//! receiver's distances from their control lines tell how many rays pass it, and one exact ray, with its own derivatives, the
+//! time of each. Fronts are fitted to a tolerance that is measured on other exact rays than those that were fitted; a sliver
+//! that no arc can follow is left out and is a [`Cut`]. What is not certified: a window of rays between two neighbours that
+//! both fail, and two arrivals closer to their caustic than [`FanOptions::accuracy`].
+//!
+//! In space [`DualSurface`] propagates and is reflected in planes exactly; behind a quadric mirror a [`SampledSurface`] is a
+//! grid of exact rays. Its [`SampledSurface::normality_defect`] measures how far they are from being normal to one surface.
 //!
 //! # Left open
 //!
