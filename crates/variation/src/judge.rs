@@ -4,7 +4,8 @@
 //! no root, or exactly one and simple if the ends differ. Each enclosure must then hold the root of one part. This proves
 //! most right answers in sums of two `f64`, with a bound on their error. Whatever is not proven is left to Sturm's theorem.
 //!
-//! Nothing is shared with the solver but the sums of two `f64`: no Descartes' count, no refinement, no fixed point.
+//! Nothing is shared with the solver but sums of two `f64` and the coefficients in them: no Descartes' count, no refinement, no
+//! fixed point.
 
 use crate::Error;
 use crate::input::Input;
