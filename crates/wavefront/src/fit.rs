@@ -122,7 +122,7 @@ impl Front {
             slivers: 0,
             arcs: 0,
         };
-        fitter.current.cuts[0] = start;
+        fitter.current.cuts[0] = start.map(Box::new);
         for range in breaks.windows(2) {
             fitter.range(range[0], range[1], 0)?;
         }
@@ -331,7 +331,7 @@ impl<R: Fn(f64) -> Result<Ray, Error>> Fitter<'_, R> {
         };
         let (before, behind) = (cut(start), cut(end));
         self.flush(Some(before));
-        self.current.cuts[0] = Some(behind);
+        self.current.cuts[0] = Some(Box::new(behind));
         Ok(())
     }
 
@@ -339,7 +339,7 @@ impl<R: Fn(f64) -> Result<Ray, Error>> Fitter<'_, R> {
     fn flush(&mut self, cut: Option<Cut>) {
         let mut front = std::mem::replace(&mut self.current, self.shape.clone());
         if !front.pieces.is_empty() {
-            front.cuts[1] = cut;
+            front.cuts[1] = cut.map(Box::new);
             self.fronts.push(front);
         }
     }

@@ -21,7 +21,7 @@ pub struct Front {
     pub(crate) from_unit: DMat2,
     pub(crate) pieces: Vec<FrontPiece>,
     pub(crate) error: f64,
-    pub(crate) cuts: [Option<Cut>; 2],
+    pub(crate) cuts: [Option<Box<Cut>>; 2],
 }
 
 /// A piece of a front, at time zero in the unit plane.
@@ -124,7 +124,7 @@ impl Front {
     /// Why the front starts and ends where it does; none where its source does.
     #[must_use]
     pub fn cuts(&self) -> [Option<&Cut>; 2] {
-        self.cuts.each_ref().map(Option::as_ref)
+        self.cuts.each_ref().map(Option::as_deref)
     }
 
     /// The largest error found when the front was fitted, a time.
