@@ -163,7 +163,10 @@ pub fn section(fans: &[Fan<'_>], receivers: &[DVec2]) -> Vec<Vec<(usize, Arrival
 }
 
 /// The answers at all points in order, in parts on all cores with the feature `rayon`.
-fn in_parts<T: Send>(points: &[DVec2], answer: impl Fn(&[DVec2]) -> Vec<T> + Sync) -> Vec<T> {
+fn in_parts<T: Send>(
+    points: &[DVec2],
+    answer: impl Fn(&[DVec2]) -> Vec<T> + Sync + Send,
+) -> Vec<T> {
     #[cfg(feature = "rayon")]
     {
         use rayon::prelude::*;

@@ -247,7 +247,7 @@ impl Layers {
 }
 
 fn angle(i: usize) -> f64 {
-    TAU * (i as f64 + 0.318) / f64::from(RAYS)
+    TAU * (i as f64 + 0.37) / f64::from(RAYS)
 }
 
 /// What was found and what went wrong in some models.
