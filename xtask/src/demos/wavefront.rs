@@ -476,7 +476,7 @@ impl Survey {
             && self
                 .exit(point, velocity.normalize(), layer, reach)
                 .is_none_or(|(_, along)| along > travel * velocity.length());
-        reaches.then(|| (point.x + travel * velocity.x, time + travel))
+        reaches.then_some((point.x + travel * velocity.x, time + travel))
     }
 
     /// Arrivals by shooting: `angles` rays, and bisection wherever two neighbours land on different sides of the receiver.
@@ -486,7 +486,7 @@ impl Survey {
             missed: 0,
             compared: 0,
         };
-        let angle = |i: u32| TAU * (f64::from(i) + 0.318) / f64::from(angles);
+        let angle = |i: u32| TAU * (f64::from(i) + 0.37) / f64::from(angles);
         for fan in fans {
             let landings: Vec<_> = (0..angles)
                 .map(|i| self.shoot(fan.code(), angle(i)))
