@@ -112,8 +112,7 @@ impl Quadratic<DVec3> {
     /// let ends = [DVec3::new(3.0, 0.0, 1.0), DVec3::new(0.0, 3.0, 1.0)];
     /// let arc = Quadratic::circular_arc_about_axis(DVec3::Z, DVec3::Z, ends, [1.0, 1.0])?;
     /// let (frame, conic) = arc.conic_in_space()?;
-    /// let Conic::Circle(circle) = conic else { unreachable!() };
-    /// assert!((frame.to_space(circle.centre) - DVec3::Z).length() < 1e-14);
+    /// assert!(matches!(conic, Conic::Circle(circle) if (frame.to_space(circle.centre) - DVec3::Z).length() < 1e-14));
     /// # Ok::<(), bezier_mass::Error>(())
     /// ```
     pub fn conic_in_space(&self) -> Result<(PlaneFrame, Conic), Error> {

@@ -151,7 +151,7 @@ pub(crate) struct CurveEnd {
     pub(crate) torsion: f64,
 }
 
-pub(crate) fn curve_end(corner: &CornerData, along: usize) -> CurveEnd {
+fn curve_end(corner: &CornerData, along: usize) -> CurveEnd {
     CurveEnd {
         point: corner.point,
         tangent: corner.tangents[along],
@@ -161,13 +161,33 @@ pub(crate) fn curve_end(corner: &CornerData, along: usize) -> CurveEnd {
     }
 }
 
-/// The ends of `r1(u)`, `r2(v)`, `r3(u)`, `r4(v)` in the corners, as `[corner i, corner j]` pairs with the axis.
-pub(crate) const SIDES: [(usize, [[usize; 2]; 2]); 4] = [
+/// The axis along which a boundary runs, and the corners `[i, j]` that it joins.
+pub(crate) type Side = (usize, [[usize; 2]; 2]);
+
+/// The ends of `r1(u)`, `r2(v)`, `r3(u)`, `r4(v)` in the corners.
+pub(crate) const SIDES: [Side; 4] = [
     (0, [[0, 0], [1, 0]]),
     (1, [[0, 0], [0, 1]]),
     (0, [[0, 1], [1, 1]]),
     (1, [[1, 0], [1, 1]]),
 ];
+
+/// The ends of one boundary and the length of its chord.
+pub(crate) fn curve_ends(
+    corners: &Corners,
+    (axis, [a, b]): Side,
+) -> Result<([CurveEnd; 2], f64), Error> {
+    let ends = [a, b].map(|[i, j]| curve_end(&corners[i][j], axis));
+    let chord = ends[0].point.distance(ends[1].point);
+    if chord > 0.0 {
+        return Ok((ends, chord));
+    }
+    Err(Error::CornerData {
+        corner: b,
+        what: "two corners coincide (distance)",
+        value: chord,
+    })
+}
 
 pub(crate) fn four<T>(values: Vec<T>) -> Result<[T; 4], Error> {
     let got = values.len();

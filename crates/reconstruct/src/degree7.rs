@@ -3,7 +3,7 @@
 //! Section 3.7 of the thesis chapter. C2 is to be checked afterwards: a curve may inflect between its ends.
 
 use crate::Error;
-use crate::corner::{Corners, CurveEnd, SIDES, curve_end, four};
+use crate::corner::{Corners, CurveEnd, SIDES, curve_ends, four};
 use bezier_mass::{BezierCurve, bernstein};
 use core::array::from_fn;
 use glam::DVec3;
@@ -62,16 +62,8 @@ pub fn degree7_boundaries(
         });
     }
     let mut curves = Vec::with_capacity(4);
-    for (axis, [a, b]) in SIDES {
-        let ends = [a, b].map(|[i, j]| curve_end(&corners[i][j], axis));
-        let chord = ends[0].point.distance(ends[1].point);
-        if !(chord > 0.0) {
-            return Err(Error::CornerData {
-                corner: b,
-                what: "two corners coincide (distance)",
-                value: chord,
-            });
-        }
+    for side in SIDES {
+        let (ends, chord) = curve_ends(corners, side)?;
         curves.push(BezierCurve::polynomial(&degree7(&ends, chord, shape))?);
     }
     four(curves)

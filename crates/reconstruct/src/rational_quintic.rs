@@ -3,7 +3,7 @@
 //! Section 3.7 of the thesis chapter. C2 is to be checked afterwards: a curve may inflect between its ends.
 
 use crate::Error;
-use crate::corner::{Corners, CurveEnd, SIDES, curve_end, four};
+use crate::corner::{Corners, CurveEnd, SIDES, curve_ends, four};
 use bezier_mass::{BezierCurve, MassPoint};
 use core::array::from_fn;
 use glam::DVec3;
@@ -183,16 +183,8 @@ fn quintic_layout(
 ) -> Result<(f64, [BezierCurve<DVec3>; 4]), Error> {
     let mut points = Vec::with_capacity(4);
     let mut natural = Vec::with_capacity(4);
-    for (axis, [a, b]) in SIDES {
-        let ends = [a, b].map(|[i, j]| curve_end(&corners[i][j], axis));
-        let chord = ends[0].point.distance(ends[1].point);
-        if !(chord > 0.0) {
-            return Err(Error::CornerData {
-                corner: b,
-                what: "two corners coincide (distance)",
-                value: chord,
-            });
-        }
+    for side in SIDES {
+        let (ends, chord) = curve_ends(corners, side)?;
         let control = quintic_control(&ends, chord, legs, slide);
         natural.push(quintic_end_invariants(&control, &[1.0; 6])?);
         points.push(control);
