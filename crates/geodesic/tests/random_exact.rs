@@ -85,14 +85,8 @@ fn on_every_mesh(triples: usize, seed: u64) {
     );
 }
 
+/// Twenty thousand pairs (each triple has three).
 #[test]
-fn exact_distances_are_a_metric_and_met_by_paths() {
-    on_every_mesh(20, 5);
-}
-
-/// Twenty thousand pairs (each triple has three): `cargo test -p geodesic --test random_exact -- --ignored`.
-#[test]
-#[ignore = "takes a minute"]
 fn twenty_thousand_exact_distances_are_a_metric_and_met_by_paths() {
     on_every_mesh(334, 6);
 }
