@@ -256,23 +256,6 @@ pub(crate) fn power_coefficients(coefficients: &[f64]) -> Vec<f64> {
     row
 }
 
-/// The inverse of [`power_coefficients`]: `b_k = Σ C(k, i) / C(n, i) a_i`.
-pub(crate) fn bernstein_from_powers(powers: &[f64]) -> Vec<f64> {
-    let mut row = powers.to_vec();
-    let n = row.len();
-    let mut binomial = 1.0;
-    for (k, c) in row.iter_mut().enumerate() {
-        *c /= binomial;
-        binomial *= (n - 1 - k) as f64 / (k + 1) as f64;
-    }
-    for level in (1..n).rev() {
-        for k in level..n {
-            row[k] += row[k - 1];
-        }
-    }
-    row
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -304,16 +287,6 @@ mod tests {
                 );
                 assert!((arc.up_to(t) - up_to).abs() <= 16.0 * f64::EPSILON * arc.total());
                 assert!((arc.speed(t) - rate).abs() <= 256.0 * f64::EPSILON * arc.total());
-            }
-        }
-    }
-
-    #[test]
-    fn powers_and_bernstein_coefficients_are_converted_both_ways() {
-        for speed in speeds() {
-            let back = bernstein_from_powers(&power_coefficients(&speed));
-            for (given, found) in speed.iter().zip(back) {
-                assert!((given - found).abs() < 1e-12);
             }
         }
     }

@@ -142,24 +142,27 @@ impl ArcSpline {
         let mut stretches: Vec<Stretch<'_>> = Vec::with_capacity(2 * self.pieces.len());
         let (mut turned, mut signed, mut run, mut after_cusp) = (0.0, 0.0, 0, false);
         for (index, piece) in self.pieces.iter().enumerate() {
-            let turning = piece.turning();
+            let mut places = piece.cusps();
+            let inflection = piece.inflection();
+            places.extend(inflection);
+            places.sort_by(f64::total_cmp);
             let mut begin = 0.0;
-            for cusp in piece.cusps().into_iter().chain([1.0]) {
-                let range = [begin, cusp];
-                begin = cusp;
+            for place in places.into_iter().chain([1.0]) {
+                let range = [begin, place];
+                begin = place;
                 if range[1] - range[0] <= f64::EPSILON {
                     continue;
                 }
-                let forwards =
-                    turning == 0.0 || piece.radius(0.5 * (range[0] + range[1])) * turning > 0.0;
+                let middle = 0.5 * (range[0] + range[1]);
+                let forwards = piece.velocity(middle).dot(piece.normal(middle).perp()) >= 0.0;
                 if !keep(forwards) {
                     run += 1;
                     after_cusp = false;
                     continue;
                 }
-                let parts = (turning.abs() * (range[1] - range[0]) / MOST_TURNING)
-                    .ceil()
-                    .max(1.0);
+                let [a, b] = range.map(|t| piece.normal(t));
+                let turning = a.perp_dot(b).atan2(a.dot(b)).abs();
+                let parts = (turning / MOST_TURNING).ceil().max(1.0);
                 for part in 0..parts as usize {
                     let at = |k: usize| range[0] + (range[1] - range[0]) * k as f64 / parts;
                     let mut stretch = Stretch::new(
@@ -178,7 +181,7 @@ impl ArcSpline {
                     stretches.push(stretch);
                 }
                 // At a cusp the direction of travel reverses.
-                if cusp < 1.0 {
+                if place < 1.0 && Some(place) != inflection {
                     run += 1;
                     after_cusp = true;
                 }

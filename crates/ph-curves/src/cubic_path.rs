@@ -243,6 +243,15 @@ impl PlaneCurve for CubicPath {
         push_roots(&legs.map(|d| d.dot(along)), BreakKind::Cusp, breaks);
     }
 
+    fn continued_inflections(&self, span: usize) -> [Option<f64>; 2] {
+        // b0 s^2 + 2 b1 s t + b2 t^2 by powers of t.
+        let [b0, b1, b2] = bend(legs(&self.cubics[span]));
+        let (a, half) = (b0 - 2.0 * b1 + b2, b1 - b0);
+        let root = (half * half - a * b0).sqrt();
+        let far = -half - root.copysign(half);
+        [far / a, b0 / far].map(|t| t.is_finite().then_some(t))
+    }
+
     fn vertices(&self, span: usize, breaks: &mut Vec<Break>) {
         if !self.is_straight(span) {
             let legs = legs(&self.cubics[span]);

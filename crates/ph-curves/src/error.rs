@@ -183,7 +183,7 @@ pub enum Error {
     },
     /// A subdivision reached its limit before the tolerance was met.
     #[error(
-        "the piece [{start}, {end}] still misses the tolerance by a factor {excess} after {depth} halvings"
+        "the piece [{start}, {end}] still misses the tolerance by a factor {excess} after {attempts} attempts"
     )]
     NotConverged {
         /// Start of the piece in the curve's parameter.
@@ -192,8 +192,8 @@ pub enum Error {
         end: f64,
         /// Error of the piece over the tolerance.
         excess: f64,
-        /// Number of halvings.
-        depth: u32,
+        /// Number of attempts at shorter and shorter pieces.
+        attempts: u32,
     },
     /// The preimage does not satisfy the condition of quintics with a rational rotation-minimising frame.
     #[error(

@@ -2,15 +2,17 @@
 
 use glam::DVec2;
 
+use crate::course::{Course, End, Interval, Turning};
 use crate::curvature_element::EQUAL_RADII;
-use crate::plane_curve::curvature;
 use crate::{
-    Approximation, Arcs, BreakKind, CurvatureElement, Error, G1Ends, G2Pair, InflectedArc, Joint,
-    LineElement, PhArc, PlaneCurve, Side, TQuartic,
+    Approximation, Arcs, CurvatureElement, G1Ends, G2Pair, InflectedArc, Joint, LineElement, PhArc,
+    PlaneCurve, Side, TQuartic,
 };
 
-/// Cosine of the largest turning of one attempt, somewhat below the half turn at which arcs end to exist.
-const MOST_TURNING_COSINE: f64 = -0.94;
+/// The curvature falls at least to this share on an interval that lies near to an inflection.
+const FALLING: f64 = 0.5;
+/// Inflections outside of a span count if they are nearer than this share of it.
+const NEAR: f64 = 1.0;
 /// Turning below which the radii at a joint lose their digits (relative error some eps / h): G1 arcs.
 const LEAST_G2_TURNING: f64 = 1e-7;
 /// Turning below which there are no arcs, but corners and segments.
@@ -26,77 +28,6 @@ const PEAK: f64 = 1.16;
 /// The same where arcs of class 9 are wanted: parts are not cut at vertices.
 const UNCUT_PEAK: f64 = 2.0;
 
-/// A first derivative below this share of the second is the rounding of one that vanishes.
-const VANISHING: f64 = 1e-11;
-
-/// One end of an interval: the curve's point, right-hand unit normal and signed curvature there, 0 at inflections and
-/// infinite at cusps.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct End {
-    pub(crate) t: f64,
-    pub(crate) point: DVec2,
-    pub(crate) normal: DVec2,
-    pub(crate) curvature: f64,
-}
-
-impl End {
-    /// The end at `t`, with the one-sided tangent where the derivative vanishes.
-    pub(crate) fn at<C: PlaneCurve + ?Sized>(
-        curve: &C,
-        span: usize,
-        t: f64,
-        side: Side,
-    ) -> Result<Self, Error> {
-        let [point, first, second] = curve.jet(span, t);
-        if !(point.is_finite() && first.is_finite() && second.is_finite()) {
-            return Err(Error::NonFinite {
-                what: "a point or derivative of the curve",
-            });
-        }
-        let vanished = first.length_squared() <= VANISHING * VANISHING * second.length_squared();
-        let direction = if vanished {
-            curve.direction(span, t, side)
-        } else {
-            first
-        };
-        let normal = -direction.normalize_or_zero().perp();
-        let curvature = if vanished {
-            f64::INFINITY
-        } else {
-            curvature(first, second)
-        };
-        Ok(Self {
-            t,
-            point,
-            normal,
-            curvature,
-        })
-    }
-}
-
-/// The curvature that is meant at a break: computed values there are rounding.
-pub(crate) fn tagged(curvature: f64, kind: BreakKind) -> f64 {
-    match kind {
-        BreakKind::Inflection => 0.0,
-        BreakKind::Cusp => f64::INFINITY.copysign(curvature),
-        BreakKind::Vertex => curvature,
-    }
-}
-
-/// Whether a curvature is neither zero nor infinite.
-pub(crate) fn regular(curvature: f64) -> bool {
-    curvature != 0.0 && curvature.is_finite()
-}
-
-/// A part of a span without inflection; for arcs of class 3 also without vertex.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Interval {
-    pub(crate) span: usize,
-    pub(crate) start: End,
-    pub(crate) end: End,
-    pub(crate) depth: u32,
-}
-
 /// What replaces an interval of the curve; arcs are about its start point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Fit {
@@ -106,57 +37,137 @@ pub(crate) enum Fit {
     Single(TQuartic),
     /// One arc of class 9 with the curve's curvatures at both ends.
     Wide(PhArc<10>),
-    /// The same with an inflection at one end; about the origin of the plane.
+    /// The same about an inflection; not about the start point.
     Inflected(InflectedArc),
     /// A corner, a segment and a corner.
     Bridge,
 }
 
-/// An attempt: the fit, its measured error, and whether its end curvatures are those of the curve.
+/// An attempt: the fit, its measured error with the power of the length by which it falls, and whether its end curvatures are
+/// those of the curve.
 pub(crate) struct Attempt {
     pub(crate) fit: Fit,
     pub(crate) error: f64,
+    pub(crate) order: f64,
     pub(crate) matched: bool,
 }
 
 /// Finds a fit for intervals of a curve.
 pub(crate) struct Fitter<'a, C: ?Sized> {
-    pub(crate) curve: &'a C,
+    pub(crate) course: Course<'a, C>,
     pub(crate) how: &'a Approximation,
 }
 
 impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
-    /// The best fit of one interval with its measured error; none if there is no arc.
-    pub(crate) fn attempt(&self, interval: &Interval) -> Option<Attempt> {
-        let Interval { start, end, .. } = interval;
+    /// The best fit of one interval with its measured error; none if there is no arc. At most one inflection lies inside the
+    /// interval: the given one.
+    pub(crate) fn attempt(&self, interval: &Interval, inflection: Option<&End>) -> Option<Attempt> {
+        let Interval { start, end } = interval;
         let chord = (end.point - start.point).length();
-        let cosine = start.normal.dot(end.normal);
-        let sine = start.normal.perp_dot(end.normal);
-        if sine.abs() > LEAST_TURNING && cosine > MOST_TURNING_COSINE {
-            let resolved = (FLAT.recip() / chord)..(SHARP.recip() / chord);
-            let curvatures = [start.curvature, end.curvature];
-            let [curved_start, curved_end] = curvatures.map(|c| resolved.contains(&c.abs()));
-            let elements = curved_start && curved_end && start.curvature * end.curvature > 0.0;
-            // One end may be an inflection, if the other is curved.
-            let inflected = (curved_start || curved_end) && start.curvature * end.curvature == 0.0;
-            let turns = sine.abs() > LEAST_G2_TURNING;
-            let curved = match self.how.arcs {
-                Arcs::Class3 if turns && elements && self.how.continuity == Joint::G2 => {
-                    self.pair(interval)
-                }
-                Arcs::Class9 if turns && (elements || inflected) => self.wide(interval),
-                _ => None,
-            };
-            if let Some(attempt) = curved.or_else(|| self.single(interval, chord)) {
-                return Some(attempt);
-            }
+        let flat = [start, end].into_iter().find(|end| end.curvature == 0.0);
+        let inflection = inflection.or(flat);
+        let attempt = match (self.how.arcs, inflection) {
+            (Arcs::Class9, Some(inflection)) => self.about(interval, inflection),
+            (Arcs::Class9, None) => self
+                .beside(interval)
+                .filter(|attempt| attempt.error <= self.how.tolerance)
+                .or_else(|| self.element_to_element(interval, chord)),
+            (Arcs::Class3, _) => self.element_to_element(interval, chord),
+        };
+        attempt
+            .or_else(|| self.single_or_none(interval, inflection, chord))
+            .or_else(|| self.bridge(interval, chord))
+    }
+
+    /// An arc of class 3 where it is the best that there is: for class 9 only where an end has no curvature that could be matched.
+    fn single_or_none(
+        &self,
+        interval: &Interval,
+        inflection: Option<&End>,
+        chord: f64,
+    ) -> Option<Attempt> {
+        let Interval { start, end } = interval;
+        let inside = inflection.is_some_and(|inflection| {
+            let at = inflection.parameter();
+            start.parameter() < at && at < end.parameter()
+        });
+        let turning = start.turning_to(end);
+        let matchable = self.how.arcs == Arcs::Class9
+            && turning.sine.abs() > LEAST_G2_TURNING
+            && [start, end]
+                .iter()
+                .all(|end| end.curvature == 0.0 || Self::is_curved(end, chord));
+        let possible = turning.sine.abs() > LEAST_TURNING && turning.is_moderate();
+        (possible && !inside && !matchable).then(|| self.single(interval, chord))?
+    }
+
+    /// Whether an end has a curvature that arcs of this chord can have.
+    fn is_curved(end: &End, chord: f64) -> bool {
+        (FLAT.recip() / chord..SHARP.recip() / chord).contains(&end.curvature.abs())
+    }
+
+    /// Arcs without inflection with the curvatures of the ends.
+    fn element_to_element(&self, interval: &Interval, chord: f64) -> Option<Attempt> {
+        let Interval { start, end } = interval;
+        let turning = start.turning_to(end);
+        let elements = [start, end].iter().all(|end| Self::is_curved(end, chord))
+            && start.curvature * end.curvature > 0.0;
+        if !(elements && turning.is_moderate() && turning.sine.abs() > LEAST_G2_TURNING) {
+            return None;
         }
-        self.bridge(interval, chord)
+        match (self.how.arcs, self.how.continuity) {
+            (Arcs::Class9, _) => self.wide(interval),
+            (Arcs::Class3, Joint::G2) => self.pair(interval),
+            (Arcs::Class3, _) => None,
+        }
+    }
+
+    /// An arc about an inflection, where its other ends are curved.
+    fn about(&self, interval: &Interval, inflection: &End) -> Option<Attempt> {
+        let Interval { start, end } = interval;
+        let chord = (end.point - inflection.point)
+            .length()
+            .max((start.point - inflection.point).length());
+        let curved = |end: &End| end.curvature == 0.0 || Self::is_curved(end, chord);
+        let turnings = [start, end].map(|end| inflection.turning_to(end));
+        let turns = turnings
+            .iter()
+            .any(|turning| turning.sine.abs() > LEAST_G2_TURNING);
+        let possible = curved(start)
+            && curved(end)
+            && (start.curvature != 0.0 || end.curvature != 0.0)
+            && turnings.iter().all(Turning::is_moderate)
+            && turns;
+        possible.then(|| self.inflected(interval, inflection))?
+    }
+
+    /// An arc about an inflection that the continuation of the span has near the interval.
+    fn beside(&self, interval: &Interval) -> Option<Attempt> {
+        let Interval { start, end } = interval;
+        let curvatures = [start.curvature.abs(), end.curvature.abs()];
+        let ratio = curvatures[0].min(curvatures[1]) / curvatures[0].max(curvatures[1]);
+        if start.span != end.span || ratio > FALLING {
+            return None;
+        }
+        let away = |t: f64| (start.t - t).max(t - end.t);
+        let nearest = self
+            .course
+            .curve
+            .continued_inflections(start.span)
+            .into_iter()
+            .flatten()
+            .filter(|t| away(*t) > 0.0)
+            .min_by(|a, b| away(*a).total_cmp(&away(*b)))?;
+        if away(nearest) > NEAR * (end.t - start.t) {
+            return None;
+        }
+        let inflection = End::at(self.course.curve, start.span, nearest, Side::Before).ok()?;
+        self.about(interval, &inflection)
     }
 
     /// Two arcs of class 3 with the curvatures of the ends.
     fn pair(&self, interval: &Interval) -> Option<Attempt> {
-        let Interval { start, end, .. } = interval;
+        let Interval { start, end } = interval;
         let difference = (start.curvature - end.curvature).abs();
         if difference <= EQUAL_RADII * start.curvature.abs().max(end.curvature.abs()) {
             return None;
@@ -175,13 +186,14 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         Some(Attempt {
             fit: Fit::Pair(pair.arcs),
             error,
+            order: 5.0,
             matched: true,
         })
     }
 
     /// One arc of class 3 with G1 contact, its shape fitted to inner tangents.
     fn single(&self, interval: &Interval, chord: f64) -> Option<Attempt> {
-        let Interval { start, end, .. } = interval;
+        let Interval { start, end } = interval;
         let element = |e: &End| LineElement::from_unit(e.point - start.point, e.normal);
         let ends = G1Ends::between(element(start), element(end));
         let samples = [0.25, 0.5, 0.75].map(|share| self.tangent(interval, share));
@@ -198,19 +210,18 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         Some(Attempt {
             fit: Fit::Single(arc),
             error,
+            order: 4.0,
             matched,
         })
     }
 
     /// A corner, a segment and a corner: right where all of the interval is closer to its chord than the tolerance.
     fn bridge(&self, interval: &Interval, chord: f64) -> Option<Attempt> {
-        let Interval {
-            span, start, end, ..
-        } = *interval;
+        let Interval { start, end } = *interval;
         let along = (end.point - start.point).try_normalize();
         let mut error = 0.0_f64;
         for share in EVEN_SHARES {
-            let [point, ..] = self.curve.jet(span, start.t + (end.t - start.t) * share);
+            let [point, ..] = self.course.jet(interval, share);
             let from = point - start.point;
             let distance = along.map_or(from.length(), |along| {
                 let nearest = along * from.dot(along).clamp(0.0, chord);
@@ -224,6 +235,7 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         (error <= self.how.tolerance).then_some(Attempt {
             fit: Fit::Bridge,
             error,
+            order: 2.0,
             matched: false,
         })
     }
@@ -231,8 +243,7 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
     /// Unit normal and support about the start point of the interval, at a share of its parameters.
     #[inline]
     fn tangent(&self, interval: &Interval, share: f64) -> (DVec2, f64) {
-        let (t0, t1) = (interval.start.t, interval.end.t);
-        let [point, first, _] = self.curve.jet(interval.span, t0 + (t1 - t0) * share);
+        let [point, first, _] = self.course.jet(interval, share);
         let normal = -first.normalize_or_zero().perp();
         (normal, normal.dot(point - interval.start.point))
     }

@@ -3,12 +3,12 @@
 use bezier_mass::bernstein;
 use glam::{DVec2, DVec3};
 
+use crate::Error;
 use crate::complex::square;
 use crate::quadrature::integrate;
-use crate::{Error, arc_length::bernstein_from_powers};
 
-/// A rational PH arc of class 9 whose curvature vanishes at its start: the arc `w = (1 - τ) w0 + τ w1` of [`PhArc`](crate::PhArc) run
-/// through by `t = √τ`, about the inflection as origin.
+/// A rational PH arc of class 9 about an inflection: the arc `w = (1 - τ) w0 + τ w1` of [`PhArc`](crate::PhArc) run through by
+/// `t = ±√τ`, about the inflection as origin.
 ///
 /// At an inflection the normal turns by `ψ ~ s²` and the support is `p ~ s³`, which is no polynomial in the normal's
 /// parameter `τ ~ s²`: arcs of the plain form have no inflection. In `t` both are polynomials, `p = g/|w|²` with
@@ -20,7 +20,8 @@ use crate::{Error, arc_length::bernstein_from_powers};
 /// | radius of curvature | `(q g̈ - q̇ ġ + q̈ g) / (4 kappa^2)`, `1/t` times a polynomial of degree 10 |
 /// | offset by d | `g + d q` |
 ///
-/// The piece is the part of this arc between two parameters, run through in either sense.
+/// The piece is the part of this arc over a range of `t`, which may begin or end in the inflection, contain it, or stop short of
+/// it. It is run through in either sense.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "StoredArc", into = "StoredArc"))]
@@ -28,22 +29,30 @@ pub struct InflectedArc {
     origin: DVec2,
     w0: DVec2,
     w1: DVec2,
-    /// Bernstein coefficients of r.
+    /// The arc's own parameter `t` at the start and at the end of the piece.
+    range: [f64; 2],
+    /// Bernstein coefficients of r over the range.
     r: [f64; 7],
     distance: f64,
-    range: [f64; 2],
 }
 
 /// Degree of the point form: `g` has degree 9, and the numerator `w (ġ w - 2 g ẇ)` two more.
 const POINT_DEGREE: usize = 11;
 
 impl InflectedArc {
-    /// The arc with these spinors and support polynomial `t³ r(t)` about the inflection at `origin`.
+    /// The piece over `range`, in `[-1, 1]`, of the arc with these spinors about the inflection at `origin`; `r` are the Bernstein
+    /// coefficients over this range of the polynomial in the support `t³ r(t)`.
     ///
     /// # Errors
     /// [`Error::NonFinite`]; [`Error::ZeroDirection`] if a spinor is zero; [`Error::NoTurning`] if they are parallel;
-    /// [`Error::TurningTooLarge`] if the angle between them is a right angle or more.
-    pub fn new(origin: DVec2, [w0, w1]: [DVec2; 2], r: [f64; 7]) -> Result<Self, Error> {
+    /// [`Error::TurningTooLarge`] if the angle between them is a right angle or more; [`Error::OutsideDomain`] for an empty range
+    /// or one outside of `[-1, 1]`.
+    pub fn new(
+        origin: DVec2,
+        [w0, w1]: [DVec2; 2],
+        range: [f64; 2],
+        r: [f64; 7],
+    ) -> Result<Self, Error> {
         // The checks are those of a plain arc with these spinors.
         crate::PhArc::new(w0, w1, r)?;
         if !origin.is_finite() {
@@ -51,25 +60,59 @@ impl InflectedArc {
                 what: "an inflection",
             });
         }
-        Ok(Self::from_parts(origin, [w0, w1], r))
+        let [from, to] = range;
+        for value in range {
+            if !(-1.0..=1.0).contains(&value) || from == to {
+                return Err(Error::OutsideDomain {
+                    value,
+                    start: -1.0,
+                    end: 1.0,
+                });
+            }
+        }
+        Ok(Self::from_parts(origin, [w0, w1], range, r))
     }
 
     /// The arc without the checks, for values known to satisfy them.
-    pub(crate) const fn from_parts(origin: DVec2, [w0, w1]: [DVec2; 2], r: [f64; 7]) -> Self {
+    pub(crate) const fn from_parts(
+        origin: DVec2,
+        [w0, w1]: [DVec2; 2],
+        range: [f64; 2],
+        r: [f64; 7],
+    ) -> Self {
         Self {
             origin,
             w0,
             w1,
+            range,
             r,
             distance: 0.0,
-            range: [0.0, 1.0],
         }
+    }
+
+    /// The parameter inside `(0, 1)` of the inflection, if the piece runs through it.
+    #[must_use]
+    pub fn inflection(&self) -> Option<f64> {
+        let [from, to] = self.range;
+        (from * to < 0.0).then(|| from / (from - to))
     }
 
     /// The arc's own parameter, 0 at the inflection.
     fn own(&self, t: f64) -> f64 {
         let [from, to] = self.range;
         if t == 1.0 { to } else { from + (to - from) * t }
+    }
+
+    /// Signed length of the range.
+    fn span(&self) -> f64 {
+        self.range[1] - self.range[0]
+    }
+
+    /// `r` and its first two derivatives by the own parameter, at a parameter of the piece.
+    fn factor_jet(&self, t: f64) -> [f64; 3] {
+        let [r, slope, bend] = bernstein::jet(&self.r, t);
+        let span = self.span();
+        [r, slope / span, bend / (span * span)]
     }
 
     fn kappa(&self) -> f64 {
@@ -90,8 +133,8 @@ impl InflectedArc {
     /// The point at `t` in `[0, 1]`.
     #[must_use]
     pub fn point(&self, t: f64) -> DVec2 {
+        let [r, slope, _] = self.factor_jet(t);
         let t = self.own(t);
-        let [r, slope, _] = bernstein::jet(&self.r, t);
         let w = self.spinor(t);
         let (g, dg) = (t * t * t * r, 0.5 * t * (3.0 * r + t * slope));
         let numerator = dg * w - 2.0 * g * (self.w1 - self.w0);
@@ -100,43 +143,65 @@ impl InflectedArc {
         self.origin + local + square(w) * (self.distance / length)
     }
 
-    /// `t` times the radius of curvature by powers of `t`; its sign is that of the radius.
+    /// Bernstein coefficients over the range of `t` times the radius of curvature: the radius changes its sign in the
+    /// inflection, this does not.
     fn scaled_radius(&self) -> [f64; 11] {
-        let powers = crate::arc_length::power_coefficients(&self.r);
+        let [from, to] = self.range;
+        let span = self.span();
         let dw = self.w1 - self.w0;
+        // q and its derivatives by τ, by powers of τ.
         let q = [
             self.w0.length_squared(),
             2.0 * self.w0.dot(dw),
             dw.length_squared(),
         ];
-        let scale = 0.25 / (self.kappa() * self.kappa());
-        let mut sum = [0.0; 11];
-        for (k, c) in powers.iter().enumerate() {
-            // The term t^n of g is τ^s; q g̈ - q̇ ġ + q̈ g, term by term.
-            let s = 0.5 * (k as f64 + 3.0);
-            let bend = s * (s - 1.0);
-            for (i, factor) in [bend, bend - s, bend - 2.0 * s + 2.0]
-                .into_iter()
-                .enumerate()
-            {
-                sum[k + 2 * i] += scale * c * q[i] * factor;
+        // q g̈ - q̇ ġ + q̈ g, sorted by r, t r' and t² r''.
+        let factors = [
+            [0.75 * q[0], -0.75 * q[1], -0.25 * q[2]],
+            [1.25 * q[0], 0.75 * q[1], 0.25 * q[2]],
+            [0.25 * q[0], 0.25 * q[1], 0.25 * q[2]],
+        ];
+        let squares = [from * from, from * to, to * to];
+        let even = |[a, b, c]: [f64; 3]| -> [f64; 5] {
+            let [s0, s1, s2] = squares;
+            [
+                a + b * s0 + c * s0 * s0,
+                a + b * 0.5 * (s0 + s1) + c * s0 * s1,
+                a + b * (s0 + 4.0 * s1 + s2) / 6.0 + c * s1 * s1,
+                a + b * 0.5 * (s1 + s2) + c * s1 * s2,
+                a + b * s2 + c * s2 * s2,
+            ]
+        };
+        let r = &self.r;
+        let slope: [f64; 6] = std::array::from_fn(|k| 6.0 * (r[k + 1] - r[k]) / span);
+        let bend: [f64; 5] = std::array::from_fn(|k| 5.0 * (slope[k + 1] - slope[k]) / span);
+        let parts = [
+            *r,
+            product::<2, 6, 7>(&[from, to], &slope),
+            product::<3, 5, 7>(&squares, &bend),
+        ];
+        let scale = 1.0 / (4.0 * self.kappa() * self.kappa());
+        let mut sum: [f64; 11] =
+            std::array::from_fn(|k| self.distance * (from + span * k as f64 / 10.0));
+        for (part, factor) in parts.iter().zip(factors) {
+            let term = product::<5, 7, 11>(&even(factor), part);
+            for (sum, term) in sum.iter_mut().zip(term) {
+                *sum += scale * term;
             }
         }
-        sum[1] += self.distance;
         sum
     }
 
-    /// Whether no cusp lies on the whole arc and its radius of curvature has the given sign, certified by the signs of
+    /// Whether no cusp lies on the piece and its radius of curvature has the sign of `sign` times `t`, certified by the signs of
     /// Bernstein coefficients.
     pub(crate) fn is_regular(&self, sign: f64) -> bool {
-        bernstein_from_powers(&self.scaled_radius())
-            .iter()
-            .all(|c| c * sign > 0.0)
+        self.scaled_radius().iter().all(|c| c * sign > 0.0)
     }
 
-    /// `t` times the radius of curvature, at one parameter.
-    fn radius_times_parameter(&self, own: f64) -> f64 {
-        let [r, slope, bend] = bernstein::jet(&self.r, own);
+    /// `t` times the radius of curvature, at a parameter of the piece.
+    fn radius_times_parameter(&self, t: f64) -> f64 {
+        let [r, slope, bend] = self.factor_jet(t);
+        let own = self.own(t);
         let (w, dw) = (self.spinor(own), self.w1 - self.w0);
         let square = own * own;
         // t g, t ġ and t g̈.
@@ -152,11 +217,16 @@ impl InflectedArc {
         (q * ddg - dq * dg + ddq * g) / (4.0 * kappa * kappa) + self.distance * own
     }
 
+    /// The numerator `g = t³ r` of the support about the inflection, at an own parameter.
+    pub(crate) fn support_numerator(&self, own: f64) -> f64 {
+        let t = (own - self.range[0]) / self.span();
+        own * own * own * bernstein::evaluate(&self.r, t)
+    }
+
     /// Signed radius of curvature, infinite at the inflection.
     #[must_use]
     pub fn radius(&self, t: f64) -> f64 {
-        let own = self.own(t);
-        self.radius_times_parameter(own) / own
+        self.radius_times_parameter(t) / self.own(t)
     }
 
     /// Derivative of the point by `t`.
@@ -166,8 +236,8 @@ impl InflectedArc {
         let w = self.spinor(own);
         let length = w.length_squared();
         // R dψ/dτ dτ/dt with dψ/dτ = 2 kappa / q.
-        let speed = self.radius_times_parameter(own) * 4.0 * self.kappa() / length;
-        square(w).perp() * (speed * (self.range[1] - self.range[0]) / length)
+        let speed = self.radius_times_parameter(t) * 4.0 * self.kappa() / length;
+        square(w).perp() * (speed * self.span() / length)
     }
 
     /// Signed turning angle of the normal in the sense of travel.
@@ -198,19 +268,22 @@ impl InflectedArc {
                 end: to.min(1.0),
             });
         }
-        Ok(Self {
+        let mut part = Self {
             range: [self.own(from), self.own(to)],
             ..*self
-        })
+        };
+        part.r
+            .copy_from_slice(&bernstein::restrict(&self.r, from, to));
+        Ok(part)
     }
 
     /// The same arc run backwards; the normals keep their directions.
     #[must_use]
     pub fn reverse(&self) -> Self {
-        Self {
-            range: [self.range[1], self.range[0]],
-            ..*self
-        }
+        let (mut range, mut r) = (self.range, self.r);
+        range.reverse();
+        r.reverse();
+        Self { range, r, ..*self }
     }
 
     /// The same points with opposite normals: supports and radii change sign.
@@ -228,7 +301,7 @@ impl InflectedArc {
     /// Parameters in `[0, 1]` where the radius of curvature vanishes, in increasing order, isolated and certified.
     #[must_use]
     pub fn cusps(&self) -> Vec<f64> {
-        self.roots(bernstein_from_powers(&self.scaled_radius()))
+        roots(&self.scaled_radius())
     }
 
     /// Parameters in `[0, 1]` of the points whose normal passes through `point`, and perhaps of the inflection.
@@ -244,85 +317,71 @@ impl InflectedArc {
             .collect();
         let first = bernstein::product(&length, &bernstein::derivative(&h));
         let second = bernstein::product(&bernstein::derivative(&length), &h);
-        self.roots(first.iter().zip(&second).map(|(a, b)| a - b).collect())
-    }
-
-    /// Roots of Bernstein coefficients over the whole arc, as parameters of the piece.
-    fn roots(&self, coefficients: Vec<f64>) -> Vec<f64> {
-        let Ok(roots) = variation::Solver::new()
-            .without_exact()
-            .roots(&coefficients)
-            .map(|roots| roots.iter().map(|root| root.value()).collect::<Vec<_>>())
-        else {
-            return Vec::new();
-        };
-        let [from, to] = self.range;
-        let mut shares: Vec<f64> = roots
-            .iter()
-            .map(|own| (own - from) / (to - from))
-            .filter(|share| (0.0..=1.0).contains(share))
-            .collect();
-        shares.sort_by(f64::total_cmp);
-        shares
+        let difference: Vec<f64> = first.iter().zip(&second).map(|(a, b)| a - b).collect();
+        roots(&difference)
     }
 
     /// Arc length; parts on both sides of a cusp count positively. By Gauss's rule, to rounding.
     #[must_use]
     pub fn length(&self) -> f64 {
-        let rate = |own: f64| {
-            4.0 * self.kappa() * self.radius_times_parameter(own)
-                / self.spinor(own).length_squared()
+        let rate = |t: f64| {
+            4.0 * self.kappa() * self.span() * self.radius_times_parameter(t)
+                / self.spinor(self.own(t)).length_squared()
         };
         let mut begin = 0.0;
         self.cusps()
             .into_iter()
             .chain([1.0])
             .map(|end| {
-                let (a, b) = (self.own(begin), self.own(end));
+                let part = integrate(begin, end, GAUSS_PIECES, rate).abs();
                 begin = end;
-                integrate(a, b, GAUSS_PIECES, rate).abs()
+                part
             })
             .sum()
     }
 
-    /// Bernstein coefficients of `g = t³ r`, of degree 9.
+    /// Bernstein coefficients over the range of `g = t³ r`, of degree 9.
     fn support_coefficients(&self) -> [f64; 10] {
-        let mut g = [0.0; 10];
-        for (k, r) in self.r.iter().enumerate() {
-            g[k + 3] = r * bernstein::binomial(6, k) / bernstein::binomial(9, k + 3);
-        }
-        g
+        let [from, to] = self.range;
+        let cube = [
+            from * from * from,
+            from * from * to,
+            from * to * to,
+            to * to * to,
+        ];
+        product(&cube, &self.r)
     }
 
-    /// Bernstein coefficients of `|w|²`, of degree 4 in t.
+    /// Bernstein coefficients over the range of `|w|²`, of degree 4.
     fn length_coefficients(&self) -> Vec<f64> {
-        let [a, b] = self.spinor_coefficients();
-        bernstein::product_with(&[a, a, b], &[a, a, b], |a, b| a.dot(*b))
+        let w = self.spinor_coefficients();
+        bernstein::product_with(&w, &w, |a, b| a.dot(*b))
     }
 
-    /// Bernstein coefficients of `w²`, of degree 4 in t.
+    /// Bernstein coefficients over the range of `w²`, of degree 4.
     fn normal_coefficients(&self) -> Vec<DVec2> {
-        let [a, b] = self.spinor_coefficients();
-        bernstein::product_with(&[a, a, b], &[a, a, b], |a, b| a.rotate(*b))
+        let w = self.spinor_coefficients();
+        bernstein::product_with(&w, &w, |a, b| a.rotate(*b))
     }
 
-    /// First and last Bernstein coefficient of w as a quadratic in t; the middle one is the first again.
-    const fn spinor_coefficients(&self) -> [DVec2; 2] {
-        [self.w0, self.w1]
+    /// Bernstein coefficients over the range of w, a quadratic.
+    fn spinor_coefficients(&self) -> [DVec2; 3] {
+        let ([from, to], dw) = (self.range, self.w1 - self.w0);
+        [from * from, from * to, to * to].map(|square| self.w0 + dw * square)
     }
 
     /// Homogeneous Bernstein coefficients `(x0, x1, x2)` of the point form, of degree 11, with positive weights.
     #[must_use]
     pub fn homogeneous(&self) -> Vec<DVec3> {
-        let w = [self.w0, self.w0, self.w1];
+        let w = self.spinor_coefficients();
         let dw = self.w1 - self.w0;
-        // ġ = t (3 r + t r') / 2 by Bernstein coefficients: t² r' and t r of degrees 7 and 7.
-        let t_times = |c: &[f64]| bernstein::product(&[0.0, 1.0], c);
+        // ġ = t (3 r + t r') / 2
+        let t_times = |c: &[f64]| bernstein::product(&self.range, c);
         let slope = t_times(&t_times(&bernstein::derivative(&self.r)));
         let rate: Vec<f64> = t_times(&self.r)
             .iter()
             .zip(&slope)
-            .map(|(r, s)| 0.5 * (3.0 * r + s))
+            .map(|(r, s)| 0.5 * (3.0 * r + s / self.span()))
             .collect();
         let inner: Vec<DVec2> = bernstein::product_with(&rate, &w, |g, w| *w * *g)
             .iter()
@@ -333,21 +392,53 @@ impl InflectedArc {
         let weights = bernstein::elevate_to(&self.length_coefficients(), POINT_DEGREE);
         let normals = bernstein::elevate_to(&self.normal_coefficients(), POINT_DEGREE);
         let (scale, sign) = (2.0 * self.kappa(), self.kappa().signum());
-        let whole: Vec<DVec3> = numerator
+        numerator
             .iter()
             .zip(weights.iter().zip(&normals))
             .map(|(x, (q, n))| {
                 let x = *x + scale * (*q * self.origin + self.distance * *n);
                 DVec3::new(scale * q, x.x, x.y) * sign
             })
-            .collect();
-        let [from, to] = self.range;
-        let mut part = bernstein::restrict(&whole, from.min(to), from.max(to));
-        if from > to {
-            part.reverse();
-        }
-        part
+            .collect()
     }
+}
+
+/// Product of Bernstein polynomials with `A` and `B` coefficients; `C = A + B - 1`.
+fn product<const A: usize, const B: usize, const C: usize>(a: &[f64; A], b: &[f64; B]) -> [f64; C] {
+    let mut sum = [0.0; C];
+    for (i, a) in a.iter().enumerate() {
+        let a = a * const { binomials::<A>() }[i];
+        for (j, b) in b.iter().enumerate() {
+            sum[i + j] += a * b * const { binomials::<B>() }[j];
+        }
+    }
+    for (sum, binomial) in sum.iter_mut().zip(const { binomials::<C>() }) {
+        *sum /= binomial;
+    }
+    sum
+}
+
+/// The row of Pascal's triangle with `N` numbers.
+const fn binomials<const N: usize>() -> [f64; N] {
+    let mut row = [1.0; N];
+    let mut k = 1;
+    while k < N {
+        row[k] = row[k - 1] * (N - k) as f64 / k as f64;
+        k += 1;
+    }
+    row
+}
+
+/// Certified roots of Bernstein coefficients in `[0, 1]`, in increasing order.
+fn roots(coefficients: &[f64]) -> Vec<f64> {
+    let Ok(roots) = variation::Solver::new()
+        .without_exact()
+        .roots(coefficients)
+        .map(|roots| roots.iter().map(|root| root.value()).collect::<Vec<_>>())
+    else {
+        return Vec::new();
+    };
+    roots
 }
 
 /// The form in which an arc is serialized.
@@ -379,15 +470,13 @@ impl TryFrom<StoredArc> for InflectedArc {
     type Error = Error;
 
     fn try_from(stored: StoredArc) -> Result<Self, Error> {
-        let [from, to] = stored.range;
         if !stored.distance.is_finite() {
             return Err(Error::NonFinite {
                 what: "an offset distance",
             });
         }
-        let whole = Self::new(stored.origin, stored.spinors, stored.r)?.offset(stored.distance);
-        let part = whole.part(from.min(to), from.max(to))?;
-        Ok(if from > to { part.reverse() } else { part })
+        let arc = Self::new(stored.origin, stored.spinors, stored.range, stored.r)?;
+        Ok(arc.offset(stored.distance))
     }
 }
 
@@ -410,7 +499,7 @@ mod tests {
         let mut arcs = Vec::new();
         for turning in [0.8_f64, -0.5] {
             let r = [0.3, 0.32, 0.3, 0.35, 0.33, 0.4, 0.38].map(|c: f64| c * turning.signum());
-            let arc = InflectedArc::new(origin, spinors(turning), r).unwrap();
+            let arc = InflectedArc::new(origin, spinors(turning), [0.0, 1.0], r).unwrap();
             arcs.extend([
                 arc,
                 arc.offset(0.2),
@@ -418,6 +507,15 @@ mod tests {
                 arc.flip(),
             ]);
             arcs.push(arc.reverse().offset(-0.1));
+            // Through the inflection, and beside it.
+            for range in [[-0.6, 1.0], [0.3, 0.8]] {
+                let arc = InflectedArc::new(origin, spinors(turning), range, r).unwrap();
+                arcs.extend([
+                    arc.offset(0.05),
+                    arc.part(0.1, 0.9).unwrap(),
+                    arc.reverse().flip(),
+                ]);
+            }
         }
         arcs
     }
@@ -483,12 +581,15 @@ mod tests {
 
     #[test]
     fn impossible_arcs_are_refused() {
-        let (x, y) = (DVec2::X, DVec2::Y);
-        assert!(InflectedArc::new(DVec2::NAN, [x, x + y], [1.0; 7]).is_err());
-        assert!(InflectedArc::new(x, [x, x + y], [f64::NAN; 7]).is_err());
-        assert!(InflectedArc::new(x, [x, x], [1.0; 7]).is_err());
-        assert!(InflectedArc::new(x, [x, y], [1.0; 7]).is_err());
-        let arc = InflectedArc::new(x, [x, x + y], [1.0; 7]).unwrap();
+        let (x, y, all) = (DVec2::X, DVec2::Y, [-1.0, 1.0]);
+        for range in [[0.5, 0.5], [0.0, 1.1], [f64::NAN, 1.0]] {
+            assert!(InflectedArc::new(x, [x, x + y], range, [1.0; 7]).is_err());
+        }
+        assert!(InflectedArc::new(DVec2::NAN, [x, x + y], all, [1.0; 7]).is_err());
+        assert!(InflectedArc::new(x, [x, x + y], all, [f64::NAN; 7]).is_err());
+        assert!(InflectedArc::new(x, [x, x], all, [1.0; 7]).is_err());
+        assert!(InflectedArc::new(x, [x, y], all, [1.0; 7]).is_err());
+        let arc = InflectedArc::new(x, [x, x + y], all, [1.0; 7]).unwrap();
         assert!(arc.part(0.5, 0.5).is_err() && arc.part(f64::NAN, 1.0).is_err());
     }
 }

@@ -14,8 +14,8 @@
 //!
 //! These are the rational Pythagorean-hodograph (PH) curves. [`PhArc`] is one of them in this complex form; its lowest
 //! class, [`TQuartic`] (Tschirnhausen's quartic), has strictly monotone curvature and is the involute of a
-//! Tschirnhausen cubic ([`TCubic`]). [`InflectedArc`] runs through such an arc by the root of its parameter, and so begins
-//! in an inflection.
+//! Tschirnhausen cubic ([`TCubic`]). [`InflectedArc`] runs through such an arc by the root of its parameter, and so through
+//! an inflection.
 //!
 //! ```
 //! use ph_curves::{Approximation, CubicPath, approximate, glam::dvec2};
@@ -85,10 +85,14 @@ struct ReadmeDoctests;
 mod approximate;
 mod arc_length;
 mod arc_spline;
+mod assembly;
+mod breakpoints;
 mod cam;
 mod class3;
 mod complex;
 mod constant_width;
+mod course;
+mod cover;
 mod crossing;
 mod cubic_path;
 mod curvature_element;
@@ -96,6 +100,7 @@ mod dual;
 mod error;
 mod fit;
 mod inflected;
+mod inflected_fit;
 mod interpolator;
 mod kubota;
 #[cfg(feature = "kurbo")]
@@ -118,9 +123,10 @@ mod t_cubic;
 mod trim;
 mod wide;
 
-pub use approximate::{Approximated, Approximation, Arcs, Breakpoints, approximate, breakpoints};
+pub use approximate::{Approximated, Approximation, Arcs, approximate};
 pub use arc_length::ArcLength;
 pub use arc_spline::{ArcSpline, Joint};
+pub use breakpoints::{Breakpoints, breakpoints};
 pub use cam::{Antisymmetric, Cam, HarmonicLift, Lift};
 pub use class3::{G1Ends, LineElement};
 pub use constant_width::{

@@ -16,7 +16,7 @@ pub enum Piece {
     Arc(PlacedArc),
     /// A PH arc of class 9.
     Wide(PlacedArc<10>),
-    /// A PH arc of class 9 one of whose ends is an inflection, or was one before it was cut.
+    /// A PH arc of class 9 about an inflection, which may lie inside, at an end, or beside it.
     Inflected(InflectedArc),
 }
 
@@ -261,6 +261,15 @@ impl Piece {
         }
     }
 
+    /// The parameter inside `(0, 1)` at which the piece has an inflection.
+    #[must_use]
+    pub fn inflection(&self) -> Option<f64> {
+        match self {
+            Self::Inflected(arc) => arc.inflection(),
+            _ => None,
+        }
+    }
+
     /// Parameters of the cusps, where the radius of curvature vanishes.
     #[must_use]
     pub fn cusps(&self) -> Vec<f64> {
@@ -315,7 +324,7 @@ impl Piece {
     }
 
     /// Homogeneous Bernstein coefficients `(x0, x1, x2)` of the point form, with positive weights: degree 1 for a
-    /// segment, 4 for an arc of class 3, 10 for one of class 9, 11 with an inflection.
+    /// segment, 4 for an arc of class 3, 10 for one of class 9, 11 for one about an inflection.
     #[must_use]
     pub fn homogeneous(&self) -> Vec<DVec3> {
         match self {

@@ -64,6 +64,14 @@ pub trait PlaneCurve {
         );
     }
 
+    /// The parameters, also outside of `[0, 1]`, of inflections of the curve that continues the span, if its jet is that of this
+    /// curve there too. An arc about an inflection near to it is close to the curve for longer.
+    ///
+    /// The default knows none.
+    fn continued_inflections(&self, _span: usize) -> [Option<f64>; 2] {
+        [None; 2]
+    }
+
     /// Appends the vertices inside the span, where the derivative of the curvature changes sign, in any order.
     ///
     /// The default looks for sign changes of differences of the curvature, as above.

@@ -1,45 +1,49 @@
-//! Fits of class up to 9: curvature elements at both ends, up to four tangents in between, and inflections at an end.
+//! Fits of class up to 9: curvature elements at both ends, up to four tangents in between.
 
 use glam::DVec2;
 
 use crate::complex::{conj, sqrt};
-use crate::fit::{Attempt, End, Fit, Fitter, Interval};
-use crate::{InflectedArc, PhArc, PlaneCurve, SupportJet};
+use crate::course::{End, Interval};
+use crate::fit::{Attempt, Fit, Fitter};
+use crate::{PhArc, PlaneCurve, SupportJet};
 
 /// Zeros of the ultraspherical polynomial of degree 4 for the weight `t^3 (1-t)^3`: the interpolation nodes.
-const NODES: [f64; 4] = [0.1797, 0.387, 0.613, 0.8203];
+pub(crate) const NODES: [f64; 4] = [0.1797, 0.387, 0.613, 0.8203];
 /// Shares between these nodes, where the error peaks.
-const PEAKS: [f64; 5] = [0.1, 0.28, 0.5, 0.72, 0.9];
+pub(crate) const PEAKS: [f64; 5] = [0.1, 0.28, 0.5, 0.72, 0.9];
+/// The same, closer, for arcs that run over knots, where the error has other peaks.
+pub(crate) const CLOSE: [f64; 15] = [
+    0.03, 0.09, 0.14, 0.22, 0.28, 0.34, 0.44, 0.5, 0.56, 0.66, 0.72, 0.78, 0.86, 0.91, 0.97,
+];
 /// The true error exceeds that at the shares by a little: parts are not cut at vertices, where peaks move. The order makes
 /// the factor cheap.
-const PEAK: f64 = 2.0;
+pub(crate) const PEAK: f64 = 2.0;
 /// Slack of rounding of a parameter outside of `[0, 1]`.
 const SLACK: f64 = 1e-9;
 /// Binomial coefficients of degree 9.
 const BINOMIALS: [f64; 10] = [1.0, 9.0, 36.0, 84.0, 126.0, 126.0, 84.0, 36.0, 9.0, 1.0];
 
-/// What the numerator of the support is a polynomial of: the parameter of the normals, or its root from an inflection on.
-struct Frame {
+/// The normals of an arc and its origin: the numerator of its support is a polynomial of the parameter of the normals.
+pub(crate) struct Frame {
     /// Unit spinors of the end normals.
-    spinors: [DVec2; 2],
+    pub(crate) spinors: [DVec2; 2],
     /// Sine and cosine of the angle between them.
     half_turning: (f64, f64),
     start: DVec2,
-    origin: DVec2,
-    inflected: bool,
+    pub(crate) origin: DVec2,
 }
 
 /// A tangent of the curve in a frame.
-struct Sample {
+pub(crate) struct Sample {
     /// Barycentric parameter `(1 - t, t)` of its normal.
     s: f64,
-    t: f64,
+    pub(crate) t: f64,
     /// The numerator `p |w|^2` of its support.
-    numerator: f64,
+    pub(crate) numerator: f64,
 }
 
 impl Frame {
-    fn new(start: &End, end: &End) -> Self {
+    pub(crate) fn new(start: &End, end: &End) -> Self {
         let turn = conj(start.normal).rotate(end.normal);
         let cosine = (0.5 * (1.0 + turn.x)).sqrt();
         let sine = 0.5 * turn.y / cosine;
@@ -49,35 +53,62 @@ impl Frame {
             half_turning: (sine, cosine),
             start: start.normal,
             origin: start.point,
-            inflected: start.curvature == 0.0,
         }
     }
 
-    /// The tangent at a point with a velocity; none (but for a slack of rounding) if its normal lies outside of the arc.
+    /// Barycentric parameter `(1 - t, t)` of a normal of length `length`; none (but for a slack of rounding) outside of the arc.
     #[inline]
-    fn sample(&self, point: DVec2, velocity: DVec2) -> Option<Sample> {
+    fn barycentric(&self, normal: DVec2, length: f64) -> Option<(f64, f64)> {
         let [w0, w1] = self.spinors;
-        let (speed, normal) = (velocity.length(), -velocity.perp());
         // The spinor of a normal bisects it and the start.
-        let turn = DVec2::new(speed + self.start.dot(normal), self.start.perp_dot(normal));
+        let turn = DVec2::new(length + self.start.dot(normal), self.start.perp_dot(normal));
         let spinor = w0.rotate(turn);
         let (a, b) = (w0.perp_dot(spinor), spinor.perp_dot(w1));
         let scale = 1.0 / (a + b);
         let (t, s) = (a * scale, b * scale);
+        (t >= -SLACK && s >= -SLACK).then_some((s, t))
+    }
+
+    /// The parameter of a unit normal, in `[0, 1]`.
+    pub(crate) fn parameter(&self, normal: DVec2) -> Option<f64> {
+        self.barycentric(normal, 1.0)
+            .map(|(_, t)| t.clamp(0.0, 1.0))
+    }
+
+    /// The tangent at a point with a velocity; none if its normal lies outside of the arc.
+    #[inline]
+    pub(crate) fn sample(&self, point: DVec2, velocity: DVec2) -> Option<Sample> {
+        let [w0, w1] = self.spinors;
+        let (speed, normal) = (velocity.length(), -velocity.perp());
+        let (s, t) = self.barycentric(normal, speed)?;
         let length = (w0 * s + w1 * t).length_squared();
         let numerator = normal.dot(point - self.origin) * length / speed;
-        if !(t >= -SLACK && s >= -SLACK && numerator.is_finite()) {
-            return None;
-        }
-        if !self.inflected {
-            return Some(Sample { s, t, numerator });
-        }
-        let root = t.max(0.0).sqrt();
-        Some(Sample {
-            s: s / (1.0 + root),
-            t: root,
-            numerator,
-        })
+        numerator.is_finite().then_some(Sample { s, t, numerator })
+    }
+
+    /// Unit spinors h apart are at least cos(h/2) long in between: the square of that.
+    pub(crate) const fn least_length(&self) -> f64 {
+        0.5 * (1.0 + self.half_turning.1)
+    }
+
+    /// The numerator of the support with this jet, and its first two derivatives, at the parameter `t`.
+    pub(crate) fn numerator(&self, jet: &SupportJet, t: f64) -> [f64; 3] {
+        let [w0, w1] = self.spinors;
+        let dw = w1 - w0;
+        let w = w0 + dw * t;
+        let (q, dq, ddq) = (
+            w.length_squared(),
+            2.0 * w.dot(dw),
+            2.0 * dw.length_squared(),
+        );
+        let rate = 2.0 * self.half_turning.0 / q;
+        let slope = jet.slope * rate;
+        let bend = jet.bend * rate * rate - slope * dq / q;
+        [
+            jet.support * q,
+            slope * q + jet.support * dq,
+            bend * q + 2.0 * slope * dq + jet.support * ddq,
+        ]
     }
 
     /// The six conditions at the ends are met by a polynomial of degree 5, here raised to 9.
@@ -87,37 +118,23 @@ impl Frame {
             let slope = sense * jet.slope;
             SupportJet { slope, ..jet }.numerator(self.half_turning)
         };
-        let last = jet(end, -1.0);
-        if self.inflected {
-            // From the end on τ = (1 - t)^2 with dτ = -2 dt, ddτ = 2 dt^2.
-            let last = [last[0], 2.0 * last[1], 4.0 * last[2] - 2.0 * last[1]];
-            quintic([0.0; 3], last)
-        } else {
-            quintic(jet(start, 1.0), last)
-        }
+        quintic(jet(start, 1.0), jet(end, -1.0))
     }
 }
 
 impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
     /// One arc of class 9: six support coefficients from the elements at the ends, four from tangents in between, which
-    /// first tell whether class 5 or 7 would do. Where an end is an inflection, the arc begins there.
+    /// first tell whether class 5 or 7 would do.
     pub(crate) fn wide(&self, interval: &Interval) -> Option<Attempt> {
-        let backwards = interval.end.curvature == 0.0;
-        let (start, end) = if backwards {
-            (&interval.end, &interval.start)
-        } else {
-            (&interval.start, &interval.end)
-        };
+        let Interval { start, end } = interval;
         let frame = Frame::new(start, end);
         let mut g = frame.ends(start, end);
-        let (t0, t1) = (interval.start.t, interval.end.t);
         let sample = |share: f64| {
-            let [point, velocity, _] = self.curve.jet(interval.span, t0 + (t1 - t0) * share);
+            let [point, velocity, _] = self.course.jet(interval, share);
             frame.sample(point, velocity)
         };
 
-        // Unit spinors h apart are at least cos(h/2) long in between.
-        let least_length = 0.5 * (1.0 + frame.half_turning.1);
+        let least_length = frame.least_length();
         let allowed = self.how.tolerance * least_length / PEAK;
         let (mut at, mut weight, mut rest) = ([0.0; 4], [0.0; 4], [0.0; 4]);
         for (k, share) in NODES.into_iter().enumerate() {
@@ -126,47 +143,39 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
             (at[k], weight[k]) = (t, product * product * product);
             rest[k] = numerator - bernstein_9(&g, s, t);
         }
-        let mut error = largest(rest);
-        if error > allowed {
+        let (mut error, mut order) = (largest(rest), 6.0);
+        let over_knots = start.span < end.span;
+        let uneven = over_knots || is_uneven(at);
+        if error > allowed || uneven {
             // The remainder over t^3 (1-t)^3, first as a line through the inner nodes, which is class 7 ...
             let quotient: [f64; 4] = std::array::from_fn(|k| rest[k] / weight[k]);
             let slope = (quotient[2] - quotient[1]) / (at[2] - at[1]);
             let line = [quotient[1] - slope * at[1], slope, 0.0, 0.0];
             error = largest([0, 3].map(|k| rest[k] - weight[k] * (line[0] + slope * at[k])));
-            if error <= allowed {
+            order = 8.0;
+            if error <= allowed && !uneven {
                 add_cubic(&mut g, line);
             } else {
                 // ... and then as a cubic through all four.
                 add_cubic(&mut g, newton(at, quotient));
-                error = 0.0;
-                for share in PEAKS {
+                order = 10.0;
+                error = largest_between(if over_knots { &CLOSE } else { &PEAKS }, |share| {
                     let Sample { s, t, numerator } = sample(share)?;
-                    error = error.max((bernstein_9(&g, s, t) - numerator).abs());
-                }
+                    Some((t, bernstein_9(&g, s, t) - numerator))
+                })?;
             }
         }
 
         // Bernstein coefficients of one sign certify that the arc has no cusp.
+        let arc = PhArc::from_parts(frame.spinors[0], frame.spinors[1], g);
         let sign = end.curvature;
-        let fit = if frame.inflected {
-            let r = std::array::from_fn(|k| {
-                g[k + 3] * BINOMIALS[k + 3] / [1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0][k]
-            });
-            let arc = InflectedArc::from_parts(frame.origin, frame.spinors, r);
-            if !arc.is_regular(sign) {
-                return None;
-            }
-            Fit::Inflected(if backwards { arc.reverse() } else { arc })
-        } else {
-            let arc = PhArc::from_parts(frame.spinors[0], frame.spinors[1], g);
-            if !arc.radius_polynomial().iter().all(|r| r * sign > 0.0) {
-                return None;
-            }
-            Fit::Wide(arc)
-        };
+        if !arc.radius_polynomial().iter().all(|r| r * sign > 0.0) {
+            return None;
+        }
         Some(Attempt {
-            fit,
+            fit: Fit::Wide(arc),
             error: PEAK * error / least_length,
+            order,
             matched: true,
         })
     }
@@ -191,6 +200,36 @@ fn quintic(first: [f64; 3], last: [f64; 3]) -> [f64; 10] {
         *g /= binomial;
     }
     g
+}
+
+/// Parameters farther apart than this leave room for an error that samples do not show: those of a curve of slowly varying
+/// curvature are about 0.2 apart.
+const APART: f64 = 0.3;
+
+/// Whether the normals of the nodes are unevenly distributed.
+fn is_uneven([a, b, c, d]: [f64; 4]) -> bool {
+    a.max(b - a).max(c - b).max(d - c).max(1.0 - d) > APART
+}
+
+/// The largest error at increasing shares, and between two of them where their parameters in `[0, 1]` are far apart; `at` gives
+/// parameter and error at a share.
+pub(crate) fn largest_between(
+    shares: &[f64],
+    at: impl Fn(f64) -> Option<(f64, f64)>,
+) -> Option<f64> {
+    let (mut most, mut last) = (0.0_f64, (0.0, 0.0));
+    for share in shares.iter().copied().chain([1.0]) {
+        let (t, error) = if share < 1.0 { at(share)? } else { (1.0, 0.0) };
+        most = most.max(error.abs());
+        if t - last.1 > APART {
+            for part in [0.25, 0.5, 0.75] {
+                let (_, error) = at(last.0 + part * (share - last.0))?;
+                most = most.max(error.abs());
+            }
+        }
+        last = (share, t);
+    }
+    Some(most)
 }
 
 fn largest<const K: usize>(values: [f64; K]) -> f64 {

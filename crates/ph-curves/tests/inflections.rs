@@ -1,7 +1,7 @@
 //! Class 9 passes inflections with continuous curvature, and stays exact under offsets there.
 
 use ph_curves::glam::{DVec2, dvec2};
-use ph_curves::{Approximated, Approximation, CubicPath, Joint, Piece, PlaneCurve, approximate};
+use ph_curves::{Approximated, Approximation, CubicPath, Piece, PlaneCurve, approximate};
 
 /// A cubic with an inflection in its middle.
 fn s_curve() -> CubicPath {
@@ -14,30 +14,49 @@ fn approximated(tolerance: f64) -> Approximated {
 }
 
 #[test]
-fn an_inflection_is_a_g2_joint_of_two_arcs() {
+fn one_arc_runs_through_an_inflection() {
     let result = approximated(1e-7);
     assert_eq!(result.g1_joints, 0);
-    assert!(
-        result
-            .spline
-            .joints()
-            .iter()
-            .all(|joint| *joint == Joint::G2)
-    );
     let pieces = result.spline.pieces();
-    assert!(pieces.len() <= 18, "{}", pieces.len());
-    let inflected: Vec<usize> = (0..pieces.len())
-        .filter(|i| matches!(pieces[*i], Piece::Inflected(_)))
+    assert!(pieces.len() <= 13, "{}", pieces.len());
+    let through: Vec<(&Piece, f64)> = pieces
+        .iter()
+        .filter_map(|piece| Some((piece, piece.inflection()?)))
         .collect();
-    assert_eq!(inflected.len(), 2);
-    let (before, after) = (&pieces[inflected[0]], &pieces[inflected[1]]);
+    let [(piece, t)] = through[..] else {
+        panic!("{} pieces have an inflection", through.len())
+    };
+    assert!((piece.point(t) - dvec2(50.0, 0.0)).length() < 1e-12);
+    assert!(piece.velocity(t).length() > 1.0);
     // The curvature goes through zero in proportion to the parameter.
-    for (piece, t, sign) in [(before, 1.0 - 1e-6, -1.0), (after, 1e-6, 1.0)] {
-        let curvature = 1.0 / piece.radius(t);
+    for (beside, sign) in [(t - 1e-6, -1.0), (t + 1e-6, 1.0)] {
+        let curvature = 1.0 / piece.radius(beside);
         assert!(curvature * sign > 0.0 && curvature.abs() < 1e-6);
     }
-    assert!((before.point(1.0) - dvec2(50.0, 0.0)).length() < 1e-12);
-    assert_eq!(after.to_bezier().unwrap().degree(), 11);
+    assert_eq!(piece.to_bezier().unwrap().degree(), 11);
+    // It can be cut there: two arcs that begin in the inflection.
+    let halves = [piece.part(0.0, t).unwrap(), piece.part(t, 1.0).unwrap()];
+    assert!(halves.iter().all(|half| half.inflection().is_none()));
+    assert!((halves[0].length() + halves[1].length() - piece.length()).abs() < 1e-12);
+}
+
+/// A line that goes over into a bend and a wave whose knots are inflections: the curvature is zero at ends of spans.
+#[test]
+fn curvature_that_vanishes_at_knots_is_continuous() {
+    let control = [
+        0.0, 0.0, 0.0, 0.0, 0.0, 8.0, 0.0, -8.0, 0.0, 8.0, 0.0, 0.0, 0.0, 0.0,
+    ];
+    let points: Vec<DVec2> = (0..)
+        .zip(control)
+        .map(|(x, y)| dvec2(10.0 * f64::from(x), y))
+        .collect();
+    let curve = CubicPath::uniform_bspline(&points, false).unwrap();
+    for tolerance in [1e-2, 1e-5, 1e-8] {
+        let result = approximate(&curve, &Approximation::within(tolerance)).unwrap();
+        assert_eq!(result.g1_joints, 0, "{tolerance}");
+        assert!(result.spline.g2_jump() < 1e-6);
+        assert!(matches!(result.spline.pieces()[0], Piece::Segment(_)));
+    }
 }
 
 #[test]

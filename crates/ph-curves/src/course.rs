@@ -1,0 +1,271 @@
+//! The way along a curve of many spans: places, ends of intervals, and what a share of an interval is.
+
+use glam::DVec2;
+
+use crate::plane_curve::curvature;
+use crate::{Break, BreakKind, Error, PlaneCurve, Side};
+
+/// A first derivative below this share of the second is the rounding of one that vanishes.
+const VANISHING: f64 = 1e-11;
+/// Angle between tangents that makes a corner, far above the rounding of computed tangents.
+const CORNER: f64 = 1e-9;
+/// A turning of a span at its curvature at an end that is the rounding of zero curvature.
+const FLAT: f64 = 1e-11;
+/// Relative difference of curvatures that is their rounding.
+const SAME_CURVATURE: f64 = 1e-8;
+
+/// One end of an interval: the curve's point, right-hand unit normal and signed curvature there, 0 at inflections and
+/// infinite at cusps.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct End {
+    pub(crate) span: usize,
+    /// Local parameter.
+    pub(crate) t: f64,
+    pub(crate) point: DVec2,
+    pub(crate) normal: DVec2,
+    pub(crate) curvature: f64,
+}
+
+impl End {
+    /// The end at `t`, with the one-sided tangent where the derivative vanishes.
+    pub(crate) fn at<C: PlaneCurve + ?Sized>(
+        curve: &C,
+        span: usize,
+        t: f64,
+        side: Side,
+    ) -> Result<Self, Error> {
+        let [point, first, second] = curve.jet(span, t);
+        if !(point.is_finite() && first.is_finite() && second.is_finite()) {
+            return Err(Error::NonFinite {
+                what: "a point or derivative of the curve",
+            });
+        }
+        let vanished = first.length_squared() <= VANISHING * VANISHING * second.length_squared();
+        let direction = if vanished {
+            curve.direction(span, t, side)
+        } else {
+            first
+        };
+        let normal = -direction.normalize_or_zero().perp();
+        let curvature = if vanished {
+            f64::INFINITY
+        } else {
+            curvature(first, second)
+        };
+        Ok(Self {
+            span,
+            t,
+            point,
+            normal,
+            curvature,
+        })
+    }
+
+    /// The end at a break, with the curvature that is meant there: computed values are rounding.
+    pub(crate) fn at_break<C: PlaneCurve + ?Sized>(
+        curve: &C,
+        span: usize,
+        cut: Break,
+        side: Side,
+    ) -> Result<Self, Error> {
+        let end = Self::at(curve, span, cut.t, side)?;
+        let curvature = match cut.kind {
+            BreakKind::Inflection => 0.0,
+            BreakKind::Cusp => f64::INFINITY.copysign(end.curvature),
+            BreakKind::Vertex => end.curvature,
+        };
+        Ok(Self { curvature, ..end })
+    }
+
+    /// The turn of the normal from here to another end.
+    pub(crate) fn turning_to(&self, other: &Self) -> Turning {
+        Turning {
+            cosine: self.normal.dot(other.normal),
+            sine: self.normal.perp_dot(other.normal),
+        }
+    }
+
+    /// Span number plus local parameter.
+    pub(crate) fn parameter(&self) -> f64 {
+        self.span as f64 + self.t
+    }
+
+    /// Whether a curve goes on in `next` with the same tangent.
+    pub(crate) fn is_tangent_to(&self, next: &Self) -> bool {
+        let Turning { cosine, sine } = self.turning_to(next);
+        cosine > 0.0 && sine.abs() <= CORNER
+    }
+
+    /// Whether the curvature is the same in `next`.
+    pub(crate) fn has_curvature_of(&self, next: &Self) -> bool {
+        let (a, b) = (self.curvature, next.curvature);
+        a == b || (a - b).abs() <= SAME_CURVATURE * a.abs().max(b.abs())
+    }
+}
+
+/// The angle between two unit normals.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Turning {
+    pub(crate) cosine: f64,
+    pub(crate) sine: f64,
+}
+
+/// Cosine of the largest turning of one arc, somewhat below the half turn at which arcs end to exist.
+const MOST_TURNING_COSINE: f64 = -0.94;
+
+impl Turning {
+    /// Whether one arc can turn so far.
+    pub(crate) fn is_moderate(&self) -> bool {
+        self.cosine > MOST_TURNING_COSINE
+    }
+}
+
+/// A part of a curve without corner; for arcs of class 3 also without inflection, vertex and knot inside.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Interval {
+    pub(crate) start: End,
+    pub(crate) end: End,
+}
+
+/// A curve with the ends of its spans, and with their approximate lengths, by which places on several spans are measured.
+pub(crate) struct Course<'a, C: ?Sized> {
+    pub(crate) curve: &'a C,
+    /// Start and end of every span.
+    ends: Vec<[End; 2]>,
+    /// Length before every span, and of the whole.
+    before: Vec<f64>,
+    /// Rounding of its largest coordinate.
+    pub(crate) rounding: f64,
+}
+
+impl<'a, C: PlaneCurve + ?Sized> Course<'a, C> {
+    pub(crate) fn new(curve: &'a C) -> Result<Self, Error> {
+        let mut ends = Vec::with_capacity(curve.spans());
+        let mut before = Vec::with_capacity(curve.spans() + 1);
+        let (mut largest, mut length) = (0.0_f64, 0.0);
+        before.push(length);
+        for span in 0..curve.spans() {
+            let mut start = End::at(curve, span, 0.0, Side::After)?;
+            let mut end = End::at(curve, span, 1.0, Side::Before)?;
+            let [middle, ..] = curve.jet(span, 0.5);
+            if !middle.is_finite() {
+                return Err(Error::NonFinite {
+                    what: "a point of the curve",
+                });
+            }
+            for point in [start.point, middle, end.point] {
+                largest = largest.max(point.abs().max_element());
+            }
+            let own = (middle - start.point).length() + (end.point - middle).length();
+            for end in [&mut start, &mut end] {
+                if end.curvature.abs() * own < FLAT {
+                    end.curvature = 0.0;
+                }
+            }
+            length += own;
+            ends.push([start, end]);
+            before.push(length);
+        }
+        Ok(Self {
+            curve,
+            ends,
+            before,
+            rounding: f64::EPSILON * largest,
+        })
+    }
+
+    /// Start and end of a span.
+    pub(crate) fn ends(&self, span: usize) -> [End; 2] {
+        self.ends[span]
+    }
+
+    /// Length from the start of the curve.
+    pub(crate) fn length_to(&self, end: &End) -> f64 {
+        let [from, to] = [self.before[end.span], self.before[end.span + 1]];
+        from + (to - from) * end.t
+    }
+
+    /// Span and local parameter at a length from the start of the curve, on the spans of an interval.
+    fn place(&self, interval: &Interval, length: f64) -> (usize, f64) {
+        let mut span = interval.start.span;
+        while span < interval.end.span && self.before[span + 1] <= length {
+            span += 1;
+        }
+        let [start, end] = [self.before[span], self.before[span + 1]];
+        let t = (length - start) / (end - start);
+        (
+            span,
+            if t.is_finite() {
+                t.clamp(0.0, 1.0)
+            } else {
+                0.5
+            },
+        )
+    }
+
+    /// Span and local parameter at a share of an interval.
+    #[inline]
+    fn share(&self, interval: &Interval, share: f64) -> (usize, f64) {
+        let Interval { start, end } = interval;
+        if start.span == end.span {
+            return (start.span, start.t + (end.t - start.t) * share);
+        }
+        let (from, to) = (self.length_to(start), self.length_to(end));
+        self.place(interval, from + (to - from) * share)
+    }
+
+    /// Point and first two derivatives at a share of an interval.
+    #[inline]
+    pub(crate) fn jet(&self, interval: &Interval, share: f64) -> [DVec2; 3] {
+        let (span, t) = self.share(interval, share);
+        self.curve.jet(span, t)
+    }
+
+    /// The same with the parameter there.
+    pub(crate) fn jet_at(&self, interval: &Interval, share: f64) -> (f64, [DVec2; 3]) {
+        let (span, t) = self.share(interval, share);
+        (span as f64 + t, self.curve.jet(span, t))
+    }
+
+    /// The end at a share of an interval.
+    pub(crate) fn end_at(&self, interval: &Interval, share: f64) -> Result<End, Error> {
+        let (span, t) = self.share(interval, share);
+        End::at(self.curve, span, t, Side::Before)
+    }
+
+    /// The last knot inside an interval within a length of its start.
+    pub(crate) fn last_knot(&self, interval: &Interval, length: f64) -> Option<End> {
+        let Interval { start, end } = interval;
+        let limit = self.length_to(start) + length;
+        let knots = &self.before[start.span + 1..=end.span];
+        let within = knots.iter().take_while(|knot| **knot <= limit).count();
+        (within > 0).then(|| self.ends[start.span + within - 1][1])
+    }
+
+    /// The first part of an interval, to the end of its first span.
+    pub(crate) fn to_first_knot(&self, interval: &Interval) -> Interval {
+        let Interval { start, end } = *interval;
+        if start.span == end.span {
+            return *interval;
+        }
+        let [_, end] = self.ends[start.span];
+        Interval { start, end }
+    }
+
+    /// The interval that is left from `start` on; from a knot on it starts in the next span.
+    pub(crate) fn rest(&self, interval: &Interval, mut start: End) -> Interval {
+        if start.t == 1.0 && start.span < interval.end.span {
+            start.span += 1;
+            start.t = 0.0;
+        }
+        Interval {
+            start,
+            end: interval.end,
+        }
+    }
+
+    /// Length of an interval.
+    pub(crate) fn length(&self, interval: &Interval) -> f64 {
+        self.length_to(&interval.end) - self.length_to(&interval.start)
+    }
+}

@@ -1,0 +1,279 @@
+//! A curve covered by pieces from its start to its end, each as long as the tolerance allows.
+
+use crate::assembly::Assembly;
+use crate::course::{Course, End, Interval};
+use crate::fit::{Attempt, Fitter};
+use crate::plane_curve::merge;
+use crate::{Approximated, Approximation, Arcs, Break, BreakKind, Error, PlaneCurve, Side};
+
+/// The share of the tolerance that the length of a next attempt aims at.
+const AIM: f64 = 0.8;
+/// Bounds of the factor from one attempt to a shorter one: errors do not follow the order of the arcs from far off.
+const SHORTENING: (f64, f64) = (0.15, 0.9);
+/// Shortening where there is no arc at all.
+const HALF: f64 = 0.5;
+/// A longer attempt is made if it promises to be longer by this factor, and at most by the other one.
+const LENGTHENING: (f64, f64) = (1.25, 2.0);
+/// A knot that lies beyond the length that is aimed at, but by less than this factor, is aimed at.
+const KNOT: f64 = 1.3;
+/// An end nearer to an inflection than this share of the interval is moved into it.
+const INTO_INFLECTION: f64 = 0.02;
+/// A rest shorter than this share of a piece takes a part of that piece.
+const SLIVER: f64 = 0.3;
+/// Pieces that end at the next knot at the latest after an attempt over knots has failed, the first time and at most.
+const FIRST_HOLD: u32 = 4;
+const MOST_HOLD: u32 = 64;
+/// Attempts for one piece.
+const MOST_ATTEMPTS: u32 = 64;
+/// Pieces per span of the curve, beyond which its derivatives cannot belong to its points.
+const MOST_PIECES: usize = 10_000;
+
+/// The construction of an approximation.
+pub(crate) struct Cover<'a, C: ?Sized> {
+    fitter: Fitter<'a, C>,
+    assembly: Assembly,
+    /// The inflections of the run in work, in the order of travel.
+    inflections: Vec<End>,
+    /// How long the next piece may become, to judge by the last ones; at first as long as a span.
+    reach: Option<f64>,
+    /// For how many pieces knots are not run over, and for how many after the next vain attempt.
+    hold: [u32; 2],
+}
+
+impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
+    pub(crate) fn new(course: Course<'a, C>, how: &'a Approximation) -> Self {
+        let room = 2 * course.curve.spans() + 8;
+        Self {
+            assembly: Assembly::new(room, course.rounding),
+            fitter: Fitter { course, how },
+            inflections: Vec::new(),
+            reach: None,
+            hold: [0, FIRST_HOLD],
+        }
+    }
+
+    /// Covers the whole curve: straight spans at once, the others in runs without cusp or corner.
+    pub(crate) fn curve(&mut self) -> Result<(), Error> {
+        let curve = self.fitter.course.curve;
+        let mut cuts = Vec::new();
+        let mut run: Option<Interval> = None;
+        for span in 0..curve.spans() {
+            self.cuts(span, &mut cuts);
+            let [mut start, last] = self.fitter.course.ends(span);
+            let straight = curve.is_straight(span);
+            for cut in cuts.iter().map(Some).chain([None]) {
+                let end = match cut {
+                    Some(cut) => End::at_break(curve, span, *cut, Side::Before)?,
+                    None => last,
+                };
+                match run {
+                    Some(before) if !straight && self.goes_on(&before.end, &start) => {
+                        if start.curvature == 0.0 && start.t == 0.0 {
+                            self.inflections.push(start);
+                        }
+                        start = before.start;
+                    }
+                    Some(before) => self.run(before)?,
+                    None => {}
+                }
+                if straight {
+                    self.assembly.straight(start, end)?;
+                    run = None;
+                } else {
+                    run = Some(Interval { start, end });
+                }
+                if let Some(cut) = cut {
+                    if cut.kind == BreakKind::Inflection && self.fitter.how.arcs == Arcs::Class9 {
+                        self.inflections.push(end);
+                    }
+                    start = End::at_break(curve, span, *cut, Side::After)?;
+                }
+            }
+        }
+        run.map_or(Ok(()), |run| self.run(run))
+    }
+
+    pub(crate) fn finish(self) -> Result<Approximated, Error> {
+        let curve = self.fitter.course.curve;
+        self.assembly
+            .finish(curve.is_closed(), curve.spans() as f64)
+    }
+
+    fn cuts(&self, span: usize, cuts: &mut Vec<Break>) {
+        let curve = self.fitter.course.curve;
+        cuts.clear();
+        curve.inflections(span, cuts);
+        if self.fitter.how.arcs == Arcs::Class3 {
+            curve.vertices(span, cuts);
+        }
+        merge(cuts);
+    }
+
+    /// Whether an arc may run over the joint of two intervals: an inflection, or a knot with continuous curvature. Arcs of class
+    /// 3 have no inflection, and vertices can lie in knots.
+    fn goes_on(&self, end: &End, start: &End) -> bool {
+        self.fitter.how.arcs == Arcs::Class9
+            && end.curvature.is_finite()
+            && end.is_tangent_to(start)
+            && end.has_curvature_of(start)
+    }
+
+    /// Covers a run, piece by piece.
+    fn run(&mut self, run: Interval) -> Result<(), Error> {
+        let mut rest = run;
+        loop {
+            let (part, attempt) = self.longest(&rest)?;
+            self.assembly.accept(&part, &attempt)?;
+            if part.end.parameter() >= rest.end.parameter() {
+                break;
+            }
+            rest = self.fitter.course.rest(&rest, part.end);
+        }
+        self.inflections.clear();
+        Ok(())
+    }
+
+    /// The longest first part of an interval that one attempt covers, found by the order of the arcs.
+    fn longest(&mut self, rest: &Interval) -> Result<(Interval, Attempt), Error> {
+        let course = &self.fitter.course;
+        let span = course.length(&course.to_first_knot(rest));
+        let mut search = Search {
+            length: self.reach.unwrap_or(span),
+            most: if self.hold[0] > 0 {
+                span
+            } else {
+                course.length(rest)
+            },
+            covered: 0.0,
+            missed: f64::INFINITY,
+        };
+        let mut over_knots = false;
+        let mut longest: Option<(Interval, Attempt)> = None;
+        let mut excess = f64::INFINITY;
+        for _ in 0..MOST_ATTEMPTS {
+            let (part, inflection) = self.first_part(rest, &search)?;
+            let tried = self.fitter.course.length(&part);
+            if longest.is_some() && !(tried > search.covered && tried < search.missed) {
+                break;
+            }
+            let attempt = self.fitter.attempt(&part, inflection.as_ref());
+            excess = attempt
+                .as_ref()
+                .map_or(f64::INFINITY, |a| a.error / self.fitter.how.tolerance);
+            match attempt {
+                Some(attempt) if excess <= 1.0 => {
+                    search.covered = tried;
+                    let factor = attempt.promise(excess);
+                    search.length = tried * factor.clamp(1.0, LENGTHENING.1);
+                    longest = Some((part, attempt));
+                    if tried >= search.most || factor < LENGTHENING.0 || search.missed.is_finite() {
+                        break;
+                    }
+                }
+                attempt => {
+                    search.missed = tried;
+                    over_knots |= part.end.span > part.start.span;
+                    if longest.is_some() {
+                        break;
+                    }
+                    let factor = match attempt {
+                        Some(attempt) if !over_knots => attempt.promise(excess),
+                        _ => HALF,
+                    };
+                    search.length = tried * factor.clamp(SHORTENING.0, SHORTENING.1);
+                }
+            }
+        }
+        self.reach = Some(search.length);
+        self.pace(over_knots);
+        let room = MOST_PIECES.saturating_mul(self.fitter.course.curve.spans());
+        longest
+            .filter(|_| self.assembly.len() < room)
+            .ok_or(Error::NotConverged {
+                start: rest.start.parameter(),
+                end: rest.end.parameter(),
+                excess,
+                attempts: MOST_ATTEMPTS,
+            })
+    }
+
+    /// Waits with attempts over knots the longer, the more often they were in vain.
+    fn pace(&mut self, in_vain: bool) {
+        let [left, next] = self.hold;
+        self.hold = match (in_vain, left) {
+            (true, _) => [next, (4 * next).min(MOST_HOLD)],
+            (false, 0) => [0, FIRST_HOLD],
+            (false, _) => [left - 1, next],
+        };
+    }
+
+    /// A first part of an interval, of about the length looked for: to its end, or to a knot, or to a place inside a span. It runs
+    /// through one inflection at most, and ends in it rather than near it.
+    fn first_part(
+        &self,
+        rest: &Interval,
+        search: &Search,
+    ) -> Result<(Interval, Option<End>), Error> {
+        let course = &self.fitter.course;
+        let start = rest.start;
+        let from = course.length_to(&start);
+        let mut ahead = self
+            .inflections
+            .iter()
+            .skip_while(|inflection| inflection.parameter() < start.parameter());
+        let (first, second) = (ahead.next(), ahead.next());
+        let place = |end: &End| course.length_to(end) - from;
+        // Half way to a second inflection the curvature is far from zero.
+        let limit = match (first, second) {
+            (Some(first), Some(second)) => 0.5 * (place(first) + place(second)),
+            _ => search.most,
+        };
+        let limit = limit.min(search.most);
+        let aim = search.length.min(limit);
+        let below = limit.min(KNOT * aim);
+        let below = if below < search.missed {
+            below
+        } else {
+            SHORTENING.1 * search.missed
+        };
+        let mut end = if aim >= course.length(rest) {
+            rest.end
+        } else if let Some(knot) = course.last_knot(rest, below) {
+            knot
+        } else {
+            let span = course.to_first_knot(rest);
+            let share = aim / course.length(&span);
+            let sliver = 1.0 - share < SLIVER * share;
+            let even = 1.0 / (1.0 + 2.0 * SLIVER);
+            course.end_at(&span, if sliver { even } else { share })?
+        };
+        let inflection = first.filter(|first| place(first) <= place(&end));
+        let Some(inflection) = inflection else {
+            return Ok((Interval { start, end }, None));
+        };
+        let (before, after) = (place(inflection), place(&end) - place(inflection));
+        let near = INTO_INFLECTION * (before + after);
+        if inflection.parameter() > start.parameter() && before.min(after) < near {
+            end = *inflection;
+        }
+        Ok((Interval { start, end }, Some(*inflection)))
+    }
+}
+
+/// The state of the search for the longest part.
+struct Search {
+    /// The length to be tried.
+    length: f64,
+    /// The length not to be exceeded.
+    most: f64,
+    /// The longest that was covered, and the shortest that was not.
+    covered: f64,
+    missed: f64,
+}
+
+impl Attempt {
+    /// The factor by which the length may change to make this excess over the tolerance the one that is aimed at.
+    fn promise(&self, excess: f64) -> f64 {
+        (AIM / excess).powf(self.order.recip())
+    }
+}
