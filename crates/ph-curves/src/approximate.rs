@@ -103,7 +103,12 @@ pub fn approximate<C: PlaneCurve + ?Sized>(
     if !(how.beta > 0.0 && how.beta < 1.0) {
         return Err(Error::TensionOutOfRange { beta: how.beta });
     }
-    let course = Course::new(curve)?;
+    // Only arcs of class 9 can have a curvature of zero.
+    let flattened = match how.arcs {
+        Arcs::Class9 => how.tolerance,
+        Arcs::Class3 => 0.0,
+    };
+    let course = Course::new(curve, flattened)?;
     let resolution = LEAST_TOLERANCE_ULPS * course.rounding;
     if how.tolerance < resolution {
         return Err(Error::ToleranceTooSmall {

@@ -10,7 +10,9 @@ const VANISHING: f64 = 1e-11;
 /// Angle between tangents that makes a corner, far above the rounding of computed tangents.
 const CORNER: f64 = 1e-9;
 /// A turning of a span at its curvature at an end that is the rounding of zero curvature.
-const FLAT: f64 = 1e-11;
+const NO_TURNING: f64 = 1e-11;
+/// Share of the tolerance that a curve may be moved by so that the curvature at the end of a span is zero.
+const FLATTENED: f64 = 1e-3;
 /// Relative difference of curvatures that is their rounding.
 const SAME_CURVATURE: f64 = 1e-8;
 
@@ -77,6 +79,14 @@ impl End {
         Ok(Self { curvature, ..end })
     }
 
+    /// Whether an inflection is so near that it may as well be here: where the curvature rises from `k` with a rate `k'`, its zero is
+    /// `s = k / k'` away, and in between the curve is `k s^2 / 3` from its tangent. `other` is the curvature at a distance.
+    fn is_flat(&self, other: f64, distance: f64, tolerance: f64) -> bool {
+        let here = self.curvature;
+        let away = here / (other - here) * distance;
+        here.abs() * distance < NO_TURNING || (here * away * away).abs() < FLATTENED * tolerance
+    }
+
     /// The turn of the normal from here to another end.
     pub(crate) fn turning_to(&self, other: &Self) -> Turning {
         Turning {
@@ -139,31 +149,34 @@ pub(crate) struct Course<'a, C: ?Sized> {
 }
 
 impl<'a, C: PlaneCurve + ?Sized> Course<'a, C> {
-    pub(crate) fn new(curve: &'a C) -> Result<Self, Error> {
+    /// The course of a curve that is to be approximated within `tolerance`.
+    pub(crate) fn new(curve: &'a C, tolerance: f64) -> Result<Self, Error> {
         let mut ends = Vec::with_capacity(curve.spans());
         let mut before = Vec::with_capacity(curve.spans() + 1);
         let (mut largest, mut length) = (0.0_f64, 0.0);
         before.push(length);
         for span in 0..curve.spans() {
-            let mut start = End::at(curve, span, 0.0, Side::After)?;
-            let mut end = End::at(curve, span, 1.0, Side::Before)?;
-            let [middle, ..] = curve.jet(span, 0.5);
+            let mut both = [
+                End::at(curve, span, 0.0, Side::After)?,
+                End::at(curve, span, 1.0, Side::Before)?,
+            ];
+            let [middle, first, second] = curve.jet(span, 0.5);
             if !middle.is_finite() {
                 return Err(Error::NonFinite {
                     what: "a point of the curve",
                 });
             }
-            for point in [start.point, middle, end.point] {
+            for point in [both[0].point, middle, both[1].point] {
                 largest = largest.max(point.abs().max_element());
             }
-            let own = (middle - start.point).length() + (end.point - middle).length();
-            for end in [&mut start, &mut end] {
-                if end.curvature.abs() * own < FLAT {
+            let halves = both.map(|end| (middle - end.point).length());
+            for (end, half) in both.iter_mut().zip(halves) {
+                if end.is_flat(curvature(first, second), half, tolerance) {
                     end.curvature = 0.0;
                 }
             }
-            length += own;
-            ends.push([start, end]);
+            length += halves[0] + halves[1];
+            ends.push(both);
             before.push(length);
         }
         Ok(Self {

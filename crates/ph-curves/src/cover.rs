@@ -16,6 +16,8 @@ const HALF: f64 = 0.5;
 const LENGTHENING: (f64, f64) = (1.25, 2.0);
 /// A knot that lies beyond the length that is aimed at, but by less than this factor, is aimed at.
 const KNOT: f64 = 1.3;
+/// An inflection this near to the tangent of a flat end, by the tolerance, lies in it.
+const FLAT: f64 = 0.01;
 /// An end nearer to an inflection than this share of the interval is moved into it.
 const INTO_INFLECTION: f64 = 0.02;
 /// A rest shorter than this share of a piece takes a part of that piece.
@@ -105,8 +107,20 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
         curve.inflections(span, cuts);
         if self.fitter.how.arcs == Arcs::Class3 {
             curve.vertices(span, cuts);
+        } else {
+            cuts.retain(|cut| !self.is_at_a_flat_end(span, cut));
         }
         merge(cuts);
+    }
+
+    /// Whether an inflection is the one for which an end of the span was made flat.
+    fn is_at_a_flat_end(&self, span: usize, cut: &Break) -> bool {
+        let [point, ..] = self.fitter.course.curve.jet(span, cut.t);
+        cut.kind == BreakKind::Inflection
+            && self.fitter.course.ends(span).iter().any(|end| {
+                let away = end.normal.dot(point - end.point).abs();
+                end.curvature == 0.0 && away <= FLAT * self.fitter.how.tolerance
+            })
     }
 
     /// Whether an arc may run over the joint of two intervals: an inflection, or a knot with continuous curvature. Arcs of class

@@ -128,7 +128,8 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         let chord = (end.point - inflection.point)
             .length()
             .max((start.point - inflection.point).length());
-        let curved = |end: &End| end.curvature == 0.0 || Self::is_curved(end, chord);
+        let at = inflection.parameter();
+        let curved = |end: &End| end.parameter() == at || Self::is_curved(end, chord);
         let turnings = [start, end].map(|end| inflection.turning_to(end));
         let turns = turnings
             .iter()

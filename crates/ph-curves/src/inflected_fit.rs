@@ -49,7 +49,7 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         };
 
         let last = frame.node(far, 1.0);
-        let (from, nodes) = if near.curvature == 0.0 {
+        let (from, nodes) = if near.parameter() == at {
             let [a, b, c, d] = NODES;
             (
                 0.0,
