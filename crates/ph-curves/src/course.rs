@@ -11,6 +11,8 @@ const VANISHING: f64 = 1e-11;
 const CORNER: f64 = 1e-9;
 /// A turning of a span at its curvature at an end that is the rounding of zero curvature.
 const NO_TURNING: f64 = 1e-11;
+/// No end at whose curvature half of a span would turn by more is looked at more closely.
+const NEARLY_FLAT: f64 = 0.05;
 /// Share of the tolerance that a curve may be moved by so that the curvature at the end of a span is zero.
 const FLATTENED: f64 = 1e-3;
 /// Relative difference of curvatures that is their rounding.
@@ -171,7 +173,8 @@ impl<'a, C: PlaneCurve + ?Sized> Course<'a, C> {
             }
             let halves = both.map(|end| (middle - end.point).length());
             for (end, half) in both.iter_mut().zip(halves) {
-                if end.is_flat(curvature(first, second), half, tolerance) {
+                let nearly = end.curvature.abs() * half < NEARLY_FLAT;
+                if nearly && end.is_flat(curvature(first, second), half, tolerance) {
                     end.curvature = 0.0;
                 }
             }

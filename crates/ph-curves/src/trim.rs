@@ -8,6 +8,9 @@ use crate::{ArcSpline, Error, Joint, Piece, PlacedArc, TQuartic};
 /// A part is kept if its distance to the original is the offset's, less this share of it for rounding.
 const KEPT: f64 = 1e-9;
 
+/// Length of a swallowtail's tip, in shares of the distance, below which its lack of distance is rounding.
+const TIP: f64 = 1e-5;
+
 impl ArcSpline {
     /// The offset at signed distance `distance` without its loops: the parts whose distance to this spline is that of
     /// the offset, joined at the crossings of the untrimmed offset. Several chains, or none, may remain.
@@ -51,6 +54,7 @@ impl ArcSpline {
         let parts: Vec<Part> = parts(&stretches, &crossings, raw.closed)
             .into_iter()
             .filter_map(|part| part.without(caps.clone()))
+            .filter(|part| !part.is_tip(&raw, distance))
             .filter(|part| keeps_distance(part, &boxes, &raw, distance.abs()))
             .collect();
         chains(&parts, &raw)
@@ -124,6 +128,28 @@ impl Part {
         }
         self.ranges.retain(|(index, _)| own.contains(index));
         (!self.ranges.is_empty()).then_some(self)
+    }
+}
+
+impl Part {
+    /// Whether the part is the tip of a swallowtail, from a crossing to a cusp, that is too small to be judged by its distance.
+    /// Close to a cusp the offset is always nearer to the original than it should be.
+    fn is_tip(&self, raw: &ArcSpline, distance: f64) -> bool {
+        let (Some((_, first)), Some((_, last))) = (self.ranges.first(), self.ranges.last()) else {
+            return false;
+        };
+        // Cusps are the only ends inside of pieces.
+        let from_cusp = self.start == Limit::End && first[0] > 0.0;
+        let to_cusp = self.end == Limit::End && last[1] < 1.0;
+        let length: f64 = self
+            .ranges
+            .iter()
+            .map(|(index, [from, to])| {
+                let piece = &raw.pieces[*index];
+                (piece.point(*to) - piece.point(*from)).length()
+            })
+            .sum();
+        (from_cusp || to_cusp) && length <= TIP * distance.abs()
     }
 }
 

@@ -159,7 +159,13 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
                 // ... and then as a cubic through all four.
                 add_cubic(&mut g, newton(at, quotient));
                 order = 10.0;
-                error = largest_between(if over_knots { &CLOSE } else { &PEAKS }, |share| {
+                // Over knots the excess tells nothing of the length to be tried next.
+                let (shares, enough): (&[f64], f64) = if over_knots {
+                    (&CLOSE, allowed)
+                } else {
+                    (&PEAKS, f64::INFINITY)
+                };
+                error = largest_between(shares, enough, |share| {
                     let Sample { s, t, numerator } = sample(share)?;
                     Some((t, bernstein_9(&g, s, t) - numerator))
                 })?;
@@ -211,16 +217,20 @@ fn is_uneven([a, b, c, d]: [f64; 4]) -> bool {
     a.max(b - a).max(c - b).max(d - c).max(1.0 - d) > APART
 }
 
-/// The largest error at increasing shares, and between two of them where their parameters in `[0, 1]` are far apart; `at` gives
-/// parameter and error at a share.
+/// The largest error at increasing shares, and between two of them where their parameters in `[0, 1]` are far apart, or the first
+/// one above `enough`; `at` gives parameter and error at a share.
 pub(crate) fn largest_between(
     shares: &[f64],
+    enough: f64,
     at: impl Fn(f64) -> Option<(f64, f64)>,
 ) -> Option<f64> {
     let (mut most, mut last) = (0.0_f64, (0.0, 0.0));
     for share in shares.iter().copied().chain([1.0]) {
         let (t, error) = if share < 1.0 { at(share)? } else { (1.0, 0.0) };
         most = most.max(error.abs());
+        if most > enough {
+            break;
+        }
         if t - last.1 > APART {
             for part in [0.25, 0.5, 0.75] {
                 let (_, error) = at(last.0 + part * (share - last.0))?;

@@ -225,7 +225,7 @@ impl Case<'_> {
             &Outcome {
                 ns: peer_ns,
                 pieces: peers::segment_count(&outlines),
-                error: error(&mut peers::vertices(&outlines).into_iter()),
+                error: error(&mut peers::points(&outlines).into_iter()),
             },
         ))
     }

@@ -1,6 +1,6 @@
 //! What the peers are given: each the input and the call that suits it best.
 
-use cavalier_contours::polyline::{PlineSource as _, PlineSourceMut as _, Polyline};
+use cavalier_contours::polyline::{PlineSource as _, PlineSourceMut as _, Polyline, seg_midpoint};
 use glam::DVec2;
 use kurbo::{BezPath, CubicBez, CurveFitSample, ParamCurveFit, PathEl, PathSeg, Point, Vec2};
 use ph_curves::{CubicPath, PlaneCurve as _};
@@ -124,11 +124,15 @@ pub(super) fn parallel_offset(input: &Polyline<f64>, distance: f64) -> Vec<Polyl
     input.parallel_offset(-distance)
 }
 
-/// The vertices of polylines.
-pub(super) fn vertices(outlines: &[Polyline<f64>]) -> Vec<DVec2> {
+/// The vertices of polylines, and the middles of their arcs.
+pub(super) fn points(outlines: &[Polyline<f64>]) -> Vec<DVec2> {
     outlines
         .iter()
-        .flat_map(|outline| outline.iter_vertexes().map(|v| DVec2::new(v.x, v.y)))
+        .flat_map(|outline| outline.iter_segments())
+        .flat_map(|(from, to)| {
+            let middle = seg_midpoint(from, to);
+            [from.pos(), middle, to.pos()].map(|p| DVec2::new(p.x, p.y))
+        })
         .collect()
 }
 
