@@ -9,10 +9,14 @@ use crate::{Break, BreakKind, Error, PlaneCurve, Side};
 const VANISHING: f64 = 1e-11;
 /// Angle between tangents that makes a corner, far above the rounding of computed tangents.
 const CORNER: f64 = 1e-9;
+/// Rounding of a second derivative, in units of the last place of the largest coordinate.
+const CURVATURE_ULPS: f64 = 256.0;
 /// A turning of a span at its curvature at an end that is the rounding of zero curvature.
 const NO_TURNING: f64 = 1e-11;
 /// No end at whose curvature half of a span would turn by more is looked at more closely.
 const NEARLY_FLAT: f64 = 0.05;
+/// An end is nearest to an inflection within this share of half its span; there is one such end.
+const NEAREST: f64 = 0.9;
 /// Share of the tolerance that a curve may be moved by so that the curvature at the end of a span is zero.
 const FLATTENED: f64 = 1e-3;
 /// Relative difference of curvatures that is their rounding.
@@ -86,7 +90,9 @@ impl End {
     fn is_flat(&self, other: f64, distance: f64, tolerance: f64) -> bool {
         let here = self.curvature;
         let away = here / (other - here) * distance;
-        here.abs() * distance < NO_TURNING || (here * away * away).abs() < FLATTENED * tolerance
+        let near = away.abs() < NEAREST * distance;
+        here.abs() * distance < NO_TURNING
+            || (near && (here * away * away).abs() < FLATTENED * tolerance)
     }
 
     /// The turn of the normal from here to another end.
@@ -182,12 +188,34 @@ impl<'a, C: PlaneCurve + ?Sized> Course<'a, C> {
             ends.push(both);
             before.push(length);
         }
-        Ok(Self {
+        let rounding = f64::EPSILON * largest;
+        let mut course = Self {
             curve,
             ends,
             before,
-            rounding: f64::EPSILON * largest,
-        })
+            rounding,
+        };
+        for knot in 1..course.ends.len() {
+            course.unify(knot - 1, knot);
+        }
+        if curve.is_closed() {
+            course.unify(course.ends.len() - 1, 0);
+        }
+        Ok(course)
+    }
+
+    /// Gives the end of one span and the start of another the same curvature if theirs differ by rounding.
+    fn unify(&mut self, before: usize, after: usize) {
+        let shortest = [before, after]
+            .map(|span| self.before[span + 1] - self.before[span])
+            .into_iter()
+            .fold(f64::INFINITY, f64::min);
+        let noise = CURVATURE_ULPS * self.rounding / (shortest * shortest);
+        let [end, start] = [self.ends[before][1], self.ends[after][0]];
+        let difference = (end.curvature - start.curvature).abs();
+        if end.is_tangent_to(&start) && (difference <= noise || end.has_curvature_of(&start)) {
+            self.ends[after][0].curvature = end.curvature;
+        }
     }
 
     /// Start and end of a span.

@@ -2,7 +2,7 @@
 
 use crate::assembly::Assembly;
 use crate::course::{Course, End, Interval};
-use crate::fit::{Attempt, Fitter};
+use crate::fit::{Attempt, Fitter, NEAR};
 use crate::plane_curve::merge;
 use crate::{Approximated, Approximation, Arcs, Break, BreakKind, Error, PlaneCurve, Side};
 
@@ -16,6 +16,8 @@ const HALF: f64 = 0.5;
 const LENGTHENING: (f64, f64) = (1.25, 2.0);
 /// A knot that lies beyond the length that is aimed at, but by less than this factor, is aimed at.
 const KNOT: f64 = 1.3;
+/// How much longer than the last a piece may be while attempts over more knots are held back.
+const STEADY: f64 = 1.1;
 /// An inflection this near to the tangent of a flat end, by the tolerance, lies in it.
 const FLAT: f64 = 0.01;
 /// An end nearer to an inflection than this share of the interval is moved into it.
@@ -24,7 +26,7 @@ const INTO_INFLECTION: f64 = 0.02;
 const SLIVER: f64 = 0.3;
 /// Pieces that end at the next knot at the latest after an attempt over knots has failed, the first time and at most.
 const FIRST_HOLD: u32 = 4;
-const MOST_HOLD: u32 = 64;
+const MOST_HOLD: u32 = 32;
 /// Attempts for one piece.
 const MOST_ATTEMPTS: u32 = 64;
 /// Pieces per span of the curve, beyond which its derivatives cannot belong to its points.
@@ -34,11 +36,14 @@ const MOST_PIECES: usize = 10_000;
 pub(crate) struct Cover<'a, C: ?Sized> {
     fitter: Fitter<'a, C>,
     assembly: Assembly,
-    /// The inflections of the run in work, in the order of travel.
+    /// The inflections of the run in work, in the order of travel, and how many of them lie behind.
     inflections: Vec<End>,
+    passed: usize,
     /// How long the next piece may become, to judge by the last ones; at first as long as a span.
     reach: Option<f64>,
-    /// For how many pieces knots are not run over, and for how many after the next vain attempt.
+    /// The length of the last piece.
+    covered: f64,
+    /// For how many pieces no more knots are run over than by the last, and for how many after the next vain attempt.
     hold: [u32; 2],
 }
 
@@ -49,7 +54,9 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
             assembly: Assembly::new(room, course.rounding),
             fitter: Fitter { course, how },
             inflections: Vec::new(),
+            passed: 0,
             reach: None,
+            covered: 0.0,
             hold: [0, FIRST_HOLD],
         }
     }
@@ -142,21 +149,28 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
                 break;
             }
             rest = self.fitter.course.rest(&rest, part.end);
+            let here = rest.start.parameter();
+            let ahead = &self.inflections[self.passed..];
+            self.passed += ahead.iter().take_while(|i| i.parameter() < here).count();
         }
         self.inflections.clear();
+        self.passed = 0;
         Ok(())
     }
 
     /// The longest first part of an interval that one attempt covers, found by the order of the arcs.
     fn longest(&mut self, rest: &Interval) -> Result<(Interval, Attempt), Error> {
         let course = &self.fitter.course;
-        let span = course.length(&course.to_first_knot(rest));
+        let (span, whole) = (
+            course.length(&course.to_first_knot(rest)),
+            course.length(rest),
+        );
         let mut search = Search {
             length: self.reach.unwrap_or(span),
             most: if self.hold[0] > 0 {
-                span
+                whole.min(span.max(STEADY * self.covered))
             } else {
-                course.length(rest)
+                whole
             },
             covered: 0.0,
             missed: f64::INFINITY,
@@ -199,6 +213,7 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
             }
         }
         self.reach = Some(search.length);
+        self.covered = search.covered;
         self.pace(over_knots);
         let room = MOST_PIECES.saturating_mul(self.fitter.course.curve.spans());
         longest
@@ -211,7 +226,7 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
             })
     }
 
-    /// Waits with attempts over knots the longer, the more often they were in vain.
+    /// Waits with attempts over more knots the longer, the more often they were in vain.
     fn pace(&mut self, in_vain: bool) {
         let [left, next] = self.hold;
         self.hold = match (in_vain, left) {
@@ -222,7 +237,7 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
     }
 
     /// A first part of an interval, of about the length looked for: to its end, or to a knot, or to a place inside a span. It runs
-    /// through one inflection at most, and ends in it rather than near it.
+    /// through one inflection at most, and ends in it rather than near it. The inflection is given too, or else one nearby.
     fn first_part(
         &self,
         rest: &Interval,
@@ -231,10 +246,7 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
         let course = &self.fitter.course;
         let start = rest.start;
         let from = course.length_to(&start);
-        let mut ahead = self
-            .inflections
-            .iter()
-            .skip_while(|inflection| inflection.parameter() < start.parameter());
+        let mut ahead = self.inflections[self.passed..].iter();
         let (first, second) = (ahead.next(), ahead.next());
         let place = |end: &End| course.length_to(end) - from;
         // Half way to a second inflection the curvature is far from zero.
@@ -263,7 +275,19 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
         };
         let inflection = first.filter(|first| place(first) <= place(&end));
         let Some(inflection) = inflection else {
-            return Ok((Interval { start, end }, None));
+            // Beside the interval, if it is near.
+            let behind = self.inflections[..self.passed].last();
+            let before = behind.map(|behind| (-place(behind), behind));
+            let after = first.map(|first| (place(first) - place(&end), first));
+            let nearest = before
+                .into_iter()
+                .chain(after)
+                .min_by(|a, b| a.0.total_cmp(&b.0));
+            let near = nearest.filter(|(away, _)| *away <= NEAR * place(&end));
+            return Ok((
+                Interval { start, end },
+                near.map(|(_, inflection)| *inflection),
+            ));
         };
         let (before, after) = (place(inflection), place(&end) - place(inflection));
         let near = INTO_INFLECTION * (before + after);

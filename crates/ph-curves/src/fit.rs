@@ -11,8 +11,8 @@ use crate::{
 
 /// The curvature falls at least to this share on an interval that lies near to an inflection.
 const FALLING: f64 = 0.5;
-/// Inflections outside of a span count if they are nearer than this share of it.
-const NEAR: f64 = 1.0;
+/// Inflections outside of an interval count if they are nearer than this share of it.
+pub(crate) const NEAR: f64 = 1.0;
 /// Turning below which the radii at a joint lose their digits (relative error some eps / h): G1 arcs.
 const LEAST_G2_TURNING: f64 = 1e-7;
 /// Turning below which there are no arcs, but corners and segments.
@@ -60,22 +60,27 @@ pub(crate) struct Fitter<'a, C: ?Sized> {
 
 impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
     /// The best fit of one interval with its measured error; none if there is no arc. At most one inflection lies inside the
-    /// interval: the given one.
+    /// interval, or one is near to it: the given one.
     pub(crate) fn attempt(&self, interval: &Interval, inflection: Option<&End>) -> Option<Attempt> {
         let Interval { start, end } = interval;
         let chord = (end.point - start.point).length();
         let flat = [start, end].into_iter().find(|end| end.curvature == 0.0);
         let inflection = inflection.or(flat);
-        let attempt = match (self.how.arcs, inflection) {
+        let contains = |inflection: &&End| {
+            let range = start.parameter()..=end.parameter();
+            range.contains(&inflection.parameter())
+        };
+        let within = inflection.filter(contains);
+        let attempt = match (self.how.arcs, within) {
             (Arcs::Class9, Some(inflection)) => self.about(interval, inflection),
             (Arcs::Class9, None) => self
-                .beside(interval)
+                .beside(interval, inflection)
                 .filter(|attempt| attempt.error <= self.how.tolerance)
                 .or_else(|| self.element_to_element(interval, chord)),
             (Arcs::Class3, _) => self.element_to_element(interval, chord),
         };
         attempt
-            .or_else(|| self.single_or_none(interval, inflection, chord))
+            .or_else(|| self.single_or_none(interval, within, chord))
             .or_else(|| self.bridge(interval, chord))
     }
 
@@ -142,28 +147,36 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         possible.then(|| self.inflected(interval, inflection))?
     }
 
-    /// An arc about an inflection that the continuation of the span has near the interval.
-    fn beside(&self, interval: &Interval) -> Option<Attempt> {
+    /// An arc about an inflection near the interval: that of the continuation of the span if there is one, or the given one.
+    fn beside(&self, interval: &Interval, inflection: Option<&End>) -> Option<Attempt> {
         let Interval { start, end } = interval;
         let curvatures = [start.curvature.abs(), end.curvature.abs()];
         let ratio = curvatures[0].min(curvatures[1]) / curvatures[0].max(curvatures[1]);
-        if start.span != end.span || ratio > FALLING {
+        if ratio > FALLING {
             return None;
         }
-        let away = |t: f64| (start.t - t).max(t - end.t);
-        let nearest = self
-            .course
-            .curve
-            .continued_inflections(start.span)
+        let continued = (start.span == end.span)
+            .then(|| self.continued_inflection(start.span, [start.t, end.t]))
+            .flatten();
+        self.about(interval, continued.as_ref().or(inflection)?)
+    }
+
+    /// The nearest inflection of the continuation of a span beside a range of its parameter.
+    fn continued_inflection(&self, span: usize, [from, to]: [f64; 2]) -> Option<End> {
+        let curve = self.course.curve;
+        let away = |t: f64| (from - t).max(t - to);
+        let nearest = curve
+            .continued_inflections(span)
             .into_iter()
             .flatten()
             .filter(|t| away(*t) > 0.0)
-            .min_by(|a, b| away(*a).total_cmp(&away(*b)))?;
-        if away(nearest) > NEAR * (end.t - start.t) {
-            return None;
-        }
-        let inflection = End::at(self.course.curve, start.span, nearest, Side::Before).ok()?;
-        self.about(interval, &inflection)
+            .min_by(|a, b| away(*a).total_cmp(&away(*b)))
+            .filter(|t| away(*t) <= NEAR * (to - from))?;
+        let end = End::at(curve, span, nearest, Side::Before).ok()?;
+        Some(End {
+            curvature: 0.0,
+            ..end
+        })
     }
 
     /// Two arcs of class 3 with the curvatures of the ends.

@@ -169,3 +169,24 @@ fn survive(how: impl Fn(f64) -> Approximation) {
     println!("{refused} refused, {pieces} pieces");
     assert!(refused <= 10, "{refused} of 1000 refused");
 }
+
+/// Samples far denser than the tolerance needs: arcs run over many knots, and stay G2.
+#[test]
+fn dense_samples_take_few_arcs() {
+    for count in [1000_u32, 4000] {
+        let points: Vec<DVec2> = (0..count)
+            .map(|k| {
+                let angle = std::f64::consts::TAU * f64::from(k) / f64::from(count);
+                DVec2::from_angle(angle) * (50.0 + 7.0 * (3.0 * angle).sin())
+            })
+            .collect();
+        let curve = CubicPath::through(&points, true).unwrap();
+        for tolerance in [1e-3, 1e-5] {
+            let result = approximate(&curve, &Approximation::within(tolerance)).unwrap();
+            let pieces = result.spline.pieces().len();
+            assert!(pieces <= 125, "{count} samples, {tolerance}: {pieces}");
+            assert_eq!(result.g1_joints, 0);
+            assert!(error(&curve, &result, 40) <= tolerance);
+        }
+    }
+}

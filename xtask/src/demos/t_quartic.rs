@@ -196,8 +196,8 @@ fn spiral_plot() -> Result<Plot> {
         let joints: Vec<DVec2> = pairs.iter().map(|pair| pair.joint.point()).collect();
         plot.points(&joints, Marker::Dot, color.line());
     }
-    plot.view(dvec2(-2.1, -2.9), dvec2(3.3, 1.7))
-        .legend(Corner::BottomRight);
+    plot.view(dvec2(-2.1, -2.5), dvec2(4.2, 2.6))
+        .legend(Corner::TopRight);
     Ok(plot)
 }
 
