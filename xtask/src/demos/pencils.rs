@@ -372,7 +372,7 @@ fn draw_patches(context: &mut Context, patches: &[CanalCurve; 3]) -> Result<()> 
         scene.ground_below();
         Ok(scene)
     };
-    let camera = scene(0.02)?.camera(dvec3(-0.12, -1.0, 0.22), context.aspect());
+    let camera = scene(0.02)?.camera(dvec3(-0.12, -1.0, 0.22), context.aspect_or(2.2));
     let tolerance = 0.25 * camera.tolerance(dvec3(4.1, 0.0, 0.0), context.height());
     context.render(
         "render-patches",

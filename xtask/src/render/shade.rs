@@ -2,12 +2,12 @@
 
 use std::f32::consts::{PI, TAU};
 
-use glam::{Vec3A, vec3a};
+use glam::{Vec3, Vec3A, vec3a};
 
 use super::accel::{Accel, Hit};
 use super::environment::{KEY, Studio, smoothstep};
 use super::material::{Finish, Material, Paint};
-use super::picture::Seen;
+use super::picture::{Behind, Seen};
 use super::sampler::Sampler;
 use super::scene::Scene;
 use crate::color::Color;
@@ -102,12 +102,8 @@ impl<'a> Shader<'a> {
         match self.accel.trace(eye, direction, 0.0) {
             Some(hit) if ground.is_none_or(|distance| hit.distance <= distance) => {
                 let object = &self.objects[hit.object as usize];
-                let normal = object.normal(&hit);
-                let normal = if normal.dot(direction) > 0.0 {
-                    -normal
-                } else {
-                    normal
-                };
+                let normal = object.facing_normal(&hit, direction);
+                let is_clear = object.material.finish == Finish::Glass;
                 Seen {
                     depth: depth(hit.distance),
                     normal,
@@ -115,23 +111,57 @@ impl<'a> Shader<'a> {
                     scalar: object.scalar(&hit).unwrap_or(0.0),
                     point: eye + direction * hit.distance,
                     paint: object.color(&hit, normal, direction),
-                    is_clear: object.material.finish == Finish::Glass,
+                    behind: is_clear.then(|| self.behind(eye, direction, &hit)),
                 }
             }
             _ => Seen {
                 depth: ground.map_or(Seen::FAR, depth),
-                normal: if ground.is_some() {
-                    Vec3A::Z
-                } else {
-                    Vec3A::ZERO
-                },
+                normal: self.ground_normal(ground),
                 id: 0,
                 scalar: 0.0,
                 point: ground.map_or(Vec3A::ZERO, |distance| eye + direction * distance),
                 paint: Vec3A::ZERO,
-                is_clear: false,
+                behind: None,
             },
         }
+    }
+
+    /// What is seen through the clear shell that a ray meets first.
+    fn behind(&self, eye: Vec3A, direction: Vec3A, first: &Hit) -> Behind {
+        let ground = self.ground_distance(eye, direction);
+        let mut passed = first.object + 1;
+        let mut nearest = first.distance + OFFSET;
+        for _ in 1..MOST_SHELLS {
+            let hit = self.accel.trace(eye, direction, nearest);
+            let Some(hit) = hit.filter(|hit| ground.is_none_or(|far| hit.distance <= far)) else {
+                break;
+            };
+            let object = &self.objects[hit.object as usize];
+            passed = passed.wrapping_mul(31).wrapping_add(hit.object + 1);
+            if object.material.finish != Finish::Glass {
+                let normal = object.facing_normal(&hit, direction);
+                return Behind {
+                    passed,
+                    point: (eye + direction * hit.distance).into(),
+                    normal: normal.into(),
+                    paint: object.color(&hit, normal, direction).into(),
+                };
+            }
+            nearest = hit.distance + OFFSET;
+        }
+        let point = ground.map_or(Vec3A::ZERO, |distance| eye + direction * distance);
+        Behind {
+            passed: passed.wrapping_mul(31),
+            point: point.into(),
+            normal: self.ground_normal(ground).into(),
+            paint: Vec3::ZERO,
+        }
+    }
+
+    /// The ground's normal where a ray meets it, none where it does not.
+    fn ground_normal(&self, distance: Option<f32>) -> Vec3A {
+        let ground = distance.and(self.studio.ground);
+        ground.map_or(Vec3A::ZERO, |ground| ground.normal)
     }
 
     /// Light along a ray from the eye.
@@ -144,9 +174,11 @@ impl<'a> Shader<'a> {
             let hit = self.accel.trace(eye, direction, nearest);
             let hit = hit.filter(|hit| ground.is_none_or(|distance| hit.distance <= distance));
             let Some(hit) = hit else {
-                let lighting = ground.map_or(Vec3A::ONE, |distance| {
-                    self.ground_lighting(eye + direction * distance, sampler)
-                });
+                let lighting = ground
+                    .zip(self.studio.ground)
+                    .map_or(Vec3A::ONE, |(distance, ground)| {
+                        self.ground_lighting(eye + direction * distance, ground.normal, sampler)
+                    });
                 sample.add(passed, Studio::backdrop(direction), lighting, Vec3A::ZERO);
                 return sample;
             };
@@ -168,19 +200,21 @@ impl<'a> Shader<'a> {
     }
 
     fn ground_distance(&self, eye: Vec3A, direction: Vec3A) -> Option<f32> {
-        let height = eye.z - self.studio.ground?;
-        let distance = -height / direction.z;
-        (height > 0.0 && direction.z < 0.0 && distance.is_finite()).then_some(distance)
+        let ground = self.studio.ground?;
+        let (height, slope) = (
+            eye.dot(ground.normal) - ground.offset,
+            direction.dot(ground.normal),
+        );
+        let distance = -height / slope;
+        (height > 0.0 && slope < 0.0 && distance.is_finite()).then_some(distance)
     }
 
     /// How much light the ground gets, over what it would get if nothing stood on it.
-    fn ground_lighting(&self, point: Vec3A, sampler: &mut Sampler) -> Vec3A {
-        let start = point + Vec3A::Z * OFFSET;
-        let key = KEY * self.studio.key().z.max(0.1);
-        let got = key * self.key_visibility(start, Vec3A::Z, sampler)
-            + self.sky(start, Vec3A::Z, sampler);
-        let open = key + vec3a(0.39, 0.43, 0.495);
-        (got / open).min(Vec3A::ONE)
+    fn ground_lighting(&self, point: Vec3A, normal: Vec3A, sampler: &mut Sampler) -> Vec3A {
+        let start = point + normal * OFFSET;
+        let key = KEY * self.studio.key().dot(normal).max(0.1);
+        let got = key * self.key_visibility(start, normal, sampler) + self.sky(start, normal, sampler);
+        (got / (key + Studio::open_sky(normal))).min(Vec3A::ONE)
     }
 
     fn key_visibility(&self, start: Vec3A, normal: Vec3A, sampler: &mut Sampler) -> f32 {
@@ -301,6 +335,16 @@ impl Vertices {
         let [a, b, c] = self.corners(hit);
         let [u, v, w] = hit.weights;
         (self.normals[a] * u + self.normals[b] * v + self.normals[c] * w).normalize_or(hit.plane)
+    }
+
+    /// The normal on the side from which the ray comes.
+    fn facing_normal(&self, hit: &Hit, direction: Vec3A) -> Vec3A {
+        let normal = self.normal(hit);
+        if normal.dot(direction) > 0.0 {
+            -normal
+        } else {
+            normal
+        }
     }
 
     fn scalar(&self, hit: &Hit) -> Option<f32> {

@@ -121,7 +121,7 @@ pub(super) fn draw_strip(context: &mut Context) -> Result<()> {
             .fold(0.0_f64, |reach, t| reach.max(t.abs()));
     let parameter = |frame: u32| reach * (2.0 * (f64::from(frame) + 0.5) / f64::from(frames) - 1.0);
     let materials = glossy();
-    let camera = Camera::look_at(dvec3(-5.4, -18.4, 7.6), dvec3(0.4, 0.0, 0.4));
+    let camera = Camera::look_at(dvec3(-5.4, -18.4, 7.6), dvec3(0.4, 0.0, 0.4), context.aspect());
     let mut images = Vec::new();
     let mut kinds = BTreeSet::new();
     let bar = context.progress("strip", u64::from(frames));
