@@ -277,7 +277,11 @@ fn ventricle(context: &mut Context) -> Result<()> {
          tightened from.",
         "A lopsided ring with an orange and a blue closed curve around it.",
     )?;
-    let mut plot = Plot::chart("", "vertices around", "largest turn between segments (rad)");
+    let mut plot = Plot::chart(
+        "loops on finer and finer meshes",
+        "vertices around",
+        "largest turn between segments (rad)",
+    );
     plot.log_x().log_y();
     let series: Vec<DVec2> = turning
         .iter()

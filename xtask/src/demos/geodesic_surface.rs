@@ -273,12 +273,14 @@ fn render_levels(
             levels.subdivide()?;
         }
         let mesh = levels.mesh()?;
+        let facets = Mesh::faceted(mesh.positions(), mesh.faces());
+        let lowest = facets.bounds().map_or(0.0, |[low, _]| low.z);
         let place = DAffine3::from_translation(DVec3::new(
-            3.7 * (level % 2) as f64,
-            -3.9 * (level / 2) as f64,
-            0.0,
+            4.0 * (level % 2) as f64,
+            -4.2 * (level / 2) as f64,
+            -lowest,
         ));
-        let facets = Mesh::faceted(mesh.positions(), mesh.faces()).transformed(place);
+        let facets = facets.transformed(place);
         around.extend(facets.positions.iter().copied());
         scene.add(facets, Material::matte(MIST))?;
         let path = &carried.paths[level];
@@ -303,6 +305,7 @@ fn render_levels(
             scene.add(Mesh::tube(&points, radius, false), Material::glossy(color))?;
         }
     }
+    scene.ground_below();
     let camera = Camera::fit(&around, towards_eye, context.aspect());
     context.render(
         "render-levels",

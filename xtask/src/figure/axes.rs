@@ -67,6 +67,11 @@ pub(super) fn draw(plot: &Plot, place: Rect, marks: &mut Vec<Mark>) {
         fit(plot, frame)
     };
     let mut fit = fitted(frame);
+    if plot.axes.is_none() {
+        let [left_top, right_bottom] = overhang(plot, &fit);
+        frame = Rect::new(frame.low + left_top, frame.high - right_bottom);
+        fit = fitted(frame);
+    }
     let mut spot = None;
     if !entries.is_empty() {
         let size = legend::size(&entries);
@@ -88,6 +93,26 @@ pub(super) fn draw(plot: &Plot, place: Rect, marks: &mut Vec<Mark>) {
         Some(low) => legend::draw_box(&entries, low, marks),
         None => legend::draw_strip(&entries, place, marks),
     }
+}
+
+/// How far texts stand out of the frame, to the left and above, to the right and below: the fit knows their points only.
+fn overhang(plot: &Plot, fit: &Fit) -> [DVec2; 2] {
+    // A text may reach this far into the white around the plot.
+    const ALLOWED: f64 = 4.0;
+    let (mut before, mut after) = (DVec2::ZERO, DVec2::ZERO);
+    for item in &plot.items {
+        if let Item::Text { at, text, side, .. } = item {
+            let low = text_corner(fit.page(plot, *at), text, *side);
+            let high = low + font::extent(text, LABEL_SIZE);
+            if low.is_finite() && !text.is_empty() {
+                before = before.max(fit.frame.low - low - ALLOWED);
+                after = after.max(high - fit.frame.high - ALLOWED);
+            }
+        }
+    }
+    // Wildly long texts must leave room for the plot.
+    let most = 0.3 * fit.frame.size();
+    [before.min(most), after.min(most)]
 }
 
 /// Page points that the legend should not cover.
@@ -227,10 +252,16 @@ fn ticks(plot: &Plot, fit: &Fit) -> [Vec<Tick>; 2] {
         let per_unit = (wanted / (high - low)).min_element();
         wanted = (high - low) * per_unit;
     }
-    [
-        plot.scales[0].ticks(low.x, high.x, wanted.x),
-        plot.scales[1].ticks(low.y, high.y, wanted.y),
-    ]
+    let named = (1..).zip(&plot.categories).map(|(place, name)| Tick {
+        value: f64::from(place),
+        text: name.clone(),
+    });
+    let x_ticks = if plot.categories.is_empty() {
+        plot.scales[0].ticks(low.x, high.x, wanted.x)
+    } else {
+        named.collect()
+    };
+    [x_ticks, plot.scales[1].ticks(low.y, high.y, wanted.y)]
 }
 
 fn draw_axes(plot: &Plot, fit: &Fit, marks: &mut Vec<Mark>) {

@@ -28,7 +28,11 @@ fn letters(line: &str) -> impl Iterator<Item = (char, bool)> {
     let mut characters = line.chars().peekable();
     std::iter::from_fn(move || {
         let first = characters.next()?;
-        let below = if first == '_' { characters.next() } else { None };
+        let below = if first == '_' {
+            characters.next()
+        } else {
+            None
+        };
         Some(below.map_or((first, false), |letter| (letter, true)))
     })
 }
@@ -38,8 +42,7 @@ pub(super) fn extent(text: &str, size: f64) -> DVec2 {
     let widths = text.lines().map(|line| {
         face().map_or(0.0, |face| {
             let advance = |(c, is_below): (char, bool)| {
-                let units =
-                    glyph(face, c).map_or(0, |id| face.glyph_hor_advance(id).unwrap_or(0));
+                let units = glyph(face, c).map_or(0, |id| face.glyph_hor_advance(id).unwrap_or(0));
                 f64::from(units) * if is_below { SUBSCRIPT.0 } else { 1.0 }
             };
             letters(line).map(advance).sum::<f64>() * size / f64::from(face.units_per_em())

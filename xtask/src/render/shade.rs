@@ -169,21 +169,27 @@ impl<'a> Shader<'a> {
         let mut sample = Sample::default();
         let mut passed = Vec3A::ONE;
         let mut nearest = 0.0;
-        for _ in 0..MOST_SHELLS {
+        for shell in 0..MOST_SHELLS {
             let ground = self.ground_distance(eye, direction);
             let hit = self.accel.trace(eye, direction, nearest);
             let hit = hit.filter(|hit| ground.is_none_or(|distance| hit.distance <= distance));
             let Some(hit) = hit else {
-                let lighting = ground
-                    .zip(self.studio.ground)
-                    .map_or(Vec3A::ONE, |(distance, ground)| {
-                        self.ground_lighting(eye + direction * distance, ground.normal, sampler)
-                    });
+                let lighting =
+                    ground
+                        .zip(self.studio.ground)
+                        .map_or(Vec3A::ONE, |(distance, ground)| {
+                            self.ground_lighting(eye + direction * distance, ground.normal, sampler)
+                        });
                 sample.add(passed, Studio::backdrop(direction), lighting, Vec3A::ZERO);
                 return sample;
             };
             let surface = self.surface(eye, direction, &hit);
-            let (albedo, lighting, mirrored) = self.shade(&surface, direction, sampler);
+            let is_behind = shell > 0 && surface.finish == Finish::Glass;
+            let (albedo, lighting, mirrored) = if is_behind {
+                self.dim_shade(&surface, direction, sampler)
+            } else {
+                self.shade(&surface, direction, sampler)
+            };
             if surface.finish != Finish::Glass {
                 sample.add(passed, albedo, lighting, mirrored);
                 return sample;
@@ -213,7 +219,8 @@ impl<'a> Shader<'a> {
     fn ground_lighting(&self, point: Vec3A, normal: Vec3A, sampler: &mut Sampler) -> Vec3A {
         let start = point + normal * OFFSET;
         let key = KEY * self.studio.key().dot(normal).max(0.1);
-        let got = key * self.key_visibility(start, normal, sampler) + self.sky(start, normal, sampler);
+        let got =
+            key * self.key_visibility(start, normal, sampler) + self.sky(start, normal, sampler);
         (got / (key + Studio::open_sky(normal))).min(Vec3A::ONE)
     }
 
@@ -257,14 +264,7 @@ impl<'a> Shader<'a> {
         direction: Vec3A,
         sampler: &mut Sampler,
     ) -> (Vec3A, Vec3A, Vec3A) {
-        let facing = surface.normal.dot(self.studio.key());
-        let visible = if facing > 0.0 {
-            self.key_visibility(surface.start, surface.plane, sampler)
-        } else {
-            0.0
-        };
-        let key = KEY * (facing.max(0.0) * visible);
-        let lighting = key + self.sky(surface.start, surface.normal, sampler);
+        let (lighting, visible) = self.lighting(surface, sampler);
         if surface.finish == Finish::Matte {
             return (surface.color, lighting, Vec3A::ZERO);
         }
@@ -273,6 +273,43 @@ impl<'a> Shader<'a> {
         let glint = glint(surface.normal, towards_eye, self.studio.key()) * visible;
         let mirrored = self.mirrored(surface, direction) * share + KEY * glint;
         (surface.color * (1.0 - share), lighting, mirrored)
+    }
+
+    /// The shade of a clear shell behind another: every other ray is lit, for two, and nothing but the studio is mirrored.
+    fn dim_shade(
+        &self,
+        surface: &Surface,
+        direction: Vec3A,
+        sampler: &mut Sampler,
+    ) -> (Vec3A, Vec3A, Vec3A) {
+        let [choice, _] = sampler.pair();
+        let lighting = if choice < 0.5 {
+            2.0 * self.lighting(surface, sampler).0
+        } else {
+            Vec3A::ZERO
+        };
+        let share = fresnel(surface.normal.dot(-direction).clamp(0.0, 1.0));
+        let mirror = reflect(direction, surface.normal);
+        (
+            surface.color * (1.0 - share),
+            lighting,
+            self.studio.mirrored(mirror) * share,
+        )
+    }
+
+    /// The light that falls on a surface, and the part of the key light that is seen from there.
+    fn lighting(&self, surface: &Surface, sampler: &mut Sampler) -> (Vec3A, f32) {
+        let facing = surface.normal.dot(self.studio.key());
+        let visible = if facing > 0.0 {
+            self.key_visibility(surface.start, surface.plane, sampler)
+        } else {
+            0.0
+        };
+        let key = KEY * (facing.max(0.0) * visible);
+        (
+            key + self.sky(surface.start, surface.normal, sampler),
+            visible,
+        )
     }
 
     /// What a clear coat mirrors: the studio, or another surface.
@@ -378,7 +415,8 @@ impl Vertices {
             Paint::Zebra { stripes } => {
                 let mirror = reflect(direction, normal);
                 let angle = mirror.dot(vec3a(0.36, 0.48, 0.8)).clamp(-1.0, 1.0).acos();
-                let wave = (angle * stripes).sin();
+                // The middle of a bull's eye is the middle of a stripe.
+                let wave = (angle * stripes).cos();
                 Vec3A::splat(0.025).lerp(Vec3A::splat(0.9), smoothstep(-0.08, 0.08, wave))
             }
             Paint::Scalar {
