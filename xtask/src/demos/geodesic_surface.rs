@@ -228,7 +228,11 @@ fn draw_errors(
     nurbs: &[Carried],
     levels: usize,
 ) -> Result<()> {
-    let mut plot = Plot::chart("", "subdivisions", "error of the length");
+    let mut plot = Plot::chart(
+        "lengths against the geodesic equation",
+        "subdivisions",
+        "error of the length",
+    );
     plot.log_y();
     let series = |errors: &[f64]| -> Vec<DVec2> {
         errors
@@ -351,7 +355,7 @@ fn render(
         }
     }
     scene.ground_below();
-    let camera = scene.camera(DVec3::new(0.45, -1.0, 0.9), context.aspect());
+    let camera = scene.camera(DVec3::new(0.45, -1.0, 0.9), context.aspect_or(1.5));
     context.render(
         name,
         &scene,

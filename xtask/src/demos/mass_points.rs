@@ -160,7 +160,7 @@ fn branch_between_vectors() -> Result<Plot> {
         (last, "P₂", Side::BelowLeft),
     ] {
         plot.arrow(centre, centre + vector, VERMILION.line());
-        plot.colored_text(centre + vector, name, side, VERMILION.line());
+        plot.colored_text(centre + 0.55 * vector, name, side, VERMILION.line());
     }
     plot.point(centre, "P₁", Side::Left, INK.fill());
     Ok(plot)

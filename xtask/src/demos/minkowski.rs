@@ -315,7 +315,7 @@ fn moves() -> Vec<Vec<f64>> {
         moves[3..6].copy_from_slice(&[height, 0.4 * height, -height]);
         moves
     };
-    vec![arc(0.035), arc(-0.035)]
+    vec![arc(0.09), arc(-0.09)]
 }
 
 fn width_plot(ovals: &[IsoperimetricArc], bumped: &Bumped) -> Result<Plot> {

@@ -15,7 +15,7 @@ use ph_curves::{
 };
 
 use crate::color::{BLUE, GREEN, GREY, INK, MIST, ORANGE, VERMILION};
-use crate::demo::{Context, Demo};
+use crate::demo::{Context, Demo, OrBadInput as _};
 use crate::figure::{Figure, Marker, Plot};
 use crate::report::Target;
 
@@ -263,7 +263,7 @@ fn lines_plot(oval: &Rosette<7>) -> Plot {
 impl Ovals {
     /// A motion with three dwells a turn, made antisymmetric: what a cam between two parallel sides can do.
     fn cam(&self) -> Result<Cam> {
-        Ok(Cam::try_new(&lift(), self.arcs)?)
+        Cam::try_new(&lift(), self.arcs).or_bad_input("--arcs")
     }
 }
 

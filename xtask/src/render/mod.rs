@@ -35,6 +35,7 @@ mod picture;
 mod sampler;
 mod scene;
 mod shade;
+mod surface;
 mod wide;
 
 pub use accel::{Accel, Hit};

@@ -57,7 +57,8 @@ impl Scene {
     }
 
     /// Instead of a ground, an upright wall behind everything that has been added so far, for things that hang in rows: it
-    /// stands across the horizontal part of `towards_eye`, and the last thing but touches it.
+    /// stands across the horizontal part of `towards_eye`, and the last thing but touches it. The light comes more from the
+    /// front then, so that a shadow stays with its thing.
     pub fn wall_behind(&mut self, towards_eye: DVec3) -> &mut Self {
         let normal = towards_eye
             .with_z(0.0)
@@ -68,7 +69,7 @@ impl Scene {
             .map(|p| p.dot(normal))
             .fold(f64::INFINITY, f64::min);
         self.ground = farthest.is_finite().then_some((normal, farthest));
-        self
+        self.light_from(normal + 0.5 * DVec3::Z - 0.35 * DVec3::Z.cross(normal))
     }
 
     /// The key light, from this direction.

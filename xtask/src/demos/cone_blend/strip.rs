@@ -95,7 +95,7 @@ pub(super) fn draw_diagonal(context: &mut Context) -> Result<()> {
             let (name, side) = [
                 ("R (μ = a)", Side::Left),
                 ("S (μ = −a)", Side::AboveRight),
-                ("φ₁ (μ = c)", Side::AboveRight),
+                ("φ₁ (μ = c)", Side::BelowLeft),
                 ("φ₂ (μ = −c)", Side::AboveRight),
             ][index];
             plot.point(flat(x), name, side, INK.fill());

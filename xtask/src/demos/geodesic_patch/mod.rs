@@ -20,7 +20,7 @@ use boundaries::{bad_sets, corners, strips, triangle};
 use draw::Drawn;
 
 use crate::color::{BLUE, GREEN, VERMILION};
-use crate::demo::{Context, Demo};
+use crate::demo::{Context, Demo, OrBadInput};
 use crate::figure::{Figure, Marker, Plot};
 use crate::report::Target;
 
@@ -46,15 +46,16 @@ impl Demo for GeodesicPatch {
         "Rectangles, triangles and Bézier patches whose boundary curves are geodesics";
 
     fn run(&self, context: &mut Context) -> Result<()> {
-        let corners = corners(self.bend)?;
-        let curves = degree7_boundaries(&corners, &Degree7Shape::default())?;
+        let corners = corners(self.bend).or_bad_input("--bend")?;
+        let curves =
+            degree7_boundaries(&corners, &Degree7Shape::default()).or_bad_input("--bend")?;
         // The criteria are those of Section 3.6, with frames; the Bézier patches are those of Section 3.7.
-        let frames = Rectangle::new(frame_strips(&curves)?)?;
+        let frames = Rectangle::new(frame_strips(&curves)?).or_bad_input("--bend")?;
         let mut worst = Worst {
             curvature: 0.0,
             c3: frames.report().c3_residual,
         };
-        let patches = criteria(context, &frames, &mut worst)?;
+        let patches = criteria(context, &frames, &mut worst).or_bad_input("--bend")?;
         let degree7 = bezier_patch(&curves, &mut worst)?;
         let quintics = rational_quintic_boundaries(&corners)?;
         let rational = bezier_patch(&quintics, &mut worst)?;

@@ -6,7 +6,7 @@
 
 mod measure;
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, ensure};
 use glam::{DVec2, dvec2};
 use variation::{
     ChainBound, Curve, Line, PoleStrategy, chain_bound, chain_bound_by, corollary_bound,
@@ -14,7 +14,7 @@ use variation::{
 };
 
 use crate::color::{BLUE, GREEN, GREY, INK, MIST, ORANGE, VERMILION};
-use crate::demo::{Context, Demo, OrBadInput};
+use crate::demo::{BadInput, Context, Demo};
 use crate::figure::{Corner, Figure, Marker, Plot, Side};
 use crate::report::Target;
 
@@ -51,7 +51,10 @@ impl Demo for Variation {
     const ABOUT: &'static str = "Refined variation-diminishing bounds by poles";
 
     fn run(&self, context: &mut Context) -> Result<()> {
-        variation::chain_bound(&[1.0, -1.0], &[self.pole]).or_bad_input("--pole Z")?;
+        ensure!(
+            (0.0..=1.0).contains(&self.pole),
+            BadInput(format!("--pole {} lies outside [0, 1]", self.pole))
+        );
         context.figure(
             "figure1",
             &Figure::new(polar_cubic(self.pole)?),
