@@ -315,17 +315,11 @@ fn moves() -> Vec<Vec<f64>> {
         moves[3..6].copy_from_slice(&[height, 0.4 * height, -height]);
         moves
     };
-    vec![arc(0.09), arc(-0.09)]
+    vec![arc(0.035), arc(-0.035)]
 }
 
 fn width_plot(ovals: &[IsoperimetricArc], bumped: &Bumped) -> Result<Plot> {
     let mut plot = Plot::geometry("constant Minkowski width");
-    plot.trace(
-        |psi| 2.0 * bumped.contact(psi).point,
-        0.0,
-        TAU,
-        GREY.line().dashed().label("2 U"),
-    );
     let mut joints = Vec::new();
     for arc in ovals {
         let point = |t: f64| {
@@ -336,6 +330,13 @@ fn width_plot(ovals: &[IsoperimetricArc], bumped: &Bumped) -> Result<Plot> {
         plot.trace(point, 0.0, 1.0, BLUE.line().width(2.5).label("oval"));
         joints.push(arc.curve().contact(0.0)?.point);
     }
+    // Nearly the same curve: in another colour above it.
+    plot.trace(
+        |psi| 2.0 * bumped.contact(psi).point,
+        0.0,
+        TAU,
+        ORANGE.line().dashed().label("2 U"),
+    );
     plot.points(&joints, Marker::Disc, BLUE.fill());
     Ok(plot)
 }
