@@ -61,10 +61,12 @@ impl Entry {
     /// The demo as a subcommand, with the flags that all demos share and its own.
     #[must_use]
     pub fn command(&self) -> Command {
-        let command = Command::new(self.name)
+        let command = (self.flags)(Settings::augment_args(Command::new(self.name)));
+        // After the flags, whose structs would set their own documentation here.
+        command
             .about(self.about)
-            .after_help(format!("Answers {}.", self.paper));
-        (self.flags)(Settings::augment_args(command))
+            .long_about(None)
+            .after_help(format!("Answers {}.", self.paper))
     }
 
     /// Runs the demo with parsed flags and writes its report.

@@ -5,7 +5,7 @@ mod page;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Context as _, Result, anyhow, bail};
 
 use crate::demo::{Entry, progress_bar, write_atomically};
 use crate::demos;
@@ -40,7 +40,8 @@ impl Gallery {
     }
 
     fn run_entries(&self, entries: &[Entry]) -> Result<()> {
-        std::fs::create_dir_all(&self.out)?;
+        std::fs::create_dir_all(&self.out)
+            .with_context(|| format!("cannot make the folder {}", self.out.display()))?;
         let bar = progress_bar("gallery", entries.len() as u64);
         let mut outcomes = Vec::new();
         for entry in entries {

@@ -25,5 +25,6 @@ pub mod figure;
 pub mod gallery;
 pub mod image;
 pub mod mesh;
+pub mod random;
 pub mod render;
 pub mod report;

@@ -147,6 +147,14 @@ mod tests {
     }
 
     #[test]
+    fn the_help_of_a_demo_says_what_one_sees() {
+        for entry in demos::all() {
+            let help = entry.command().render_help().to_string();
+            assert!(help.starts_with(entry.about), "{help}");
+        }
+    }
+
+    #[test]
     fn unknown_demos_and_sizes_out_of_range_are_refused() {
         assert!(
             command()

@@ -2,6 +2,7 @@
 
 mod build;
 mod canal;
+mod cut;
 mod tube;
 
 pub use build::chord_steps;

@@ -29,7 +29,7 @@ pub use timer::Timer;
 use std::io::Write;
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Context as _, Result};
 use clap::{ArgMatches, Args, Command};
 use serde_json::Value;
 
@@ -111,7 +111,9 @@ impl Entry {
     /// The bench as a subcommand.
     #[must_use]
     pub fn command(&self) -> Command {
-        (self.flags)(Command::new(self.name).about(self.about))
+        (self.flags)(Command::new(self.name))
+            .about(self.about)
+            .long_about(None)
     }
 
     /// Does the timed work with parsed flags, and prints what came out.
@@ -147,4 +149,5 @@ pub fn run_all(timer: &Timer) -> Result<Value> {
 pub fn write_json(path: &Path, result: &Value) -> Result<()> {
     let text = serde_json::to_string_pretty(result)?;
     write_atomically(path, |file| writeln!(file, "{text}"))
+        .with_context(|| format!("cannot write {}", path.display()))
 }

@@ -4,14 +4,15 @@ use std::hint::black_box;
 
 use anyhow::Result;
 use bezier_mass::BezierCurve;
-use glam::{DMat3, DVec3, dvec3};
+use glam::{DVec3, dvec3};
 use reconstruct::{
     AnalyticCurve, BezierStrip, CornerData, Corners, Criterion, Degree7Shape, GeodesicStrip,
-    Rectangle, RibbonLayout, RibbonStream, Sensor, SensorKind, WorldFields, degree7_boundaries,
+    Rectangle, RibbonStream, degree7_boundaries,
 };
 use serde_json::{Value, json};
 
 use super::{Bench, Timer};
+use crate::demos::alternating;
 
 #[derive(clap::Args, Debug)]
 pub(super) struct Reconstruct {
@@ -82,31 +83,9 @@ impl Bench for Reconstruct {
     }
 }
 
-/// An alternating ribbon and readings of a helix.
+/// An alternating ribbon along a helix.
 fn ribbon(sensors: usize) -> Result<(RibbonStream, Vec<DVec3>)> {
-    let world = WorldFields::with_dip(1.08)?;
-    let kind = |i: usize| {
-        if i.is_multiple_of(2) {
-            SensorKind::Accelerometer
-        } else {
-            SensorKind::Magnetometer
-        }
-    };
-    let s = |i: usize| 4.0 * i as f64 / (sensors - 1) as f64;
-    let layout = RibbonLayout::new((0..sensors).map(|i| Sensor::new(s(i), kind(i))), world)?;
-    let readings = (0..sensors)
-        .map(|i| {
-            let x = dvec3(-0.6 * s(i).sin(), 0.6 * s(i).cos(), 0.8);
-            let y = DVec3::Z.cross(x).normalize();
-            let field = if i.is_multiple_of(2) {
-                world.up()
-            } else {
-                world.magnetic()
-            };
-            DMat3::from_cols(x, y, x.cross(y)).transpose() * field
-        })
-        .collect();
-    Ok((RibbonStream::new(layout)?, readings))
+    alternating(sensors, 4.0, |s| dvec3(-0.6 * s.sin(), 0.6 * s.cos(), 0.8))
 }
 
 /// Four helices on the unit cylinder.

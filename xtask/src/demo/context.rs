@@ -9,11 +9,15 @@ use anyhow::{Context as _, Result, ensure};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::Value;
 
+use super::failure::BadInput;
 use crate::export::{Part, Step, gltf, obj};
 use crate::figure::Figure;
 use crate::image::{Image, write_animation};
 use crate::render::{Camera, Options, Picture as RenderedPicture, Scene, render};
 use crate::report::{Measured, Picture, Report, Target};
+
+/// Pixels of the largest rendered picture: each takes some 300 bytes while the light on it is smoothed.
+const MOST_PIXELS: f64 = 3.0e7;
 
 /// The flags that all demos share.
 #[derive(clap::Args, Clone, Debug)]
@@ -24,7 +28,7 @@ pub struct Settings {
     /// Width of pictures in pixels [default: 1280, quick 480]
     #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=16384))]
     pub width: Option<u32>,
-    /// Height of rendered pictures in pixels [default: three quarters of the width]
+    /// Height of rendered pictures in pixels [default: three quarters of the width; less for wide scenes]
     #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=16384))]
     pub height: Option<u32>,
     /// Rays per edge pixel of rendered pictures; a quarter inside surfaces [default: 32, quick 8]
@@ -235,6 +239,16 @@ impl Context {
         f64::from(self.width()) / f64::from(self.height())
     }
 
+    /// The same where a picture had better be wider or higher than most: `wished`, unless a height was asked for.
+    #[must_use]
+    pub fn aspect_or(&self, wished: f64) -> f64 {
+        if self.settings.height.is_some() {
+            self.aspect()
+        } else {
+            wished
+        }
+    }
+
     /// Renders a scene at the size asked for as `NAME.exr` (with its layers) and `NAME.png`. Names
     /// start with `render`.
     ///
@@ -248,6 +262,13 @@ impl Context {
         caption: &str,
         alt: &str,
     ) -> Result<()> {
+        let pixels = f64::from(self.width()).powi(2) / camera.aspect();
+        ensure!(
+            pixels <= MOST_PIXELS,
+            BadInput(format!(
+                "a rendered picture of {pixels:.0} pixels does not fit: at most {MOST_PIXELS:.0}"
+            ))
+        );
         let picture = self.rendered(name, scene, camera, self.width(), self.samples());
         self.file(&format!("{name}.exr"), |file| picture.write_exr(file))?;
         self.picture(name, &picture.image(), caption, alt)
@@ -267,7 +288,7 @@ impl Context {
         width: u32,
         samples: u32,
     ) -> RenderedPicture {
-        let height = (f64::from(width) / self.aspect()).round().max(1.0) as u32;
+        let height = (f64::from(width) / camera.aspect()).round().max(1.0) as u32;
         let options = Options {
             width: width.max(1),
             height,

@@ -10,13 +10,13 @@
 
 use std::f64::consts::TAU;
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, ensure};
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use lorentz::construct::{ConePatch, cone_between_radii};
 use lorentz::{Sphere, TubeGrid};
 
 use crate::color::{BLUE, Color, GREEN, GREY, INK, ORANGE};
-use crate::demo::{Context, Demo, OrBadInput as _};
+use crate::demo::{BadInput, Context, Demo, OrBadInput as _};
 use crate::figure::{Figure, Marker, Plot, Side};
 use crate::mesh::Mesh;
 use crate::render::{Material, Scene};
@@ -38,6 +38,8 @@ const PRINTED_T: [f64; 2] = [0.879, 0.916];
 const PRINTED_WEIGHT: f64 = 1.021;
 const PRINTED_MIDDLE: [f64; 5] = [0.4, 1.8333, 0.0, 6.5667, 55.5333];
 const PAPER_RADIUS: f64 = 3.0;
+/// A larger piece would take more facets than a picture has pixels.
+const MOST_RADIUS: f64 = 100.0;
 
 impl Demo for Cone {
     const NAME: &'static str = "cone";
@@ -47,6 +49,13 @@ impl Demo for Cone {
 
     fn run(&self, context: &mut Context) -> Result<()> {
         let sphere = Sphere::new(CENTRE, RADIUS)?;
+        ensure!(
+            self.end_radius <= MOST_RADIUS,
+            BadInput(format!(
+                "--end-radius {} is above {MOST_RADIUS}",
+                self.end_radius
+            ))
+        );
         let patch = cone_between_radii(VERTEX, sphere, [RADIUS, self.end_radius])
             .or_bad_input("--end-radius")?;
         let printed = self.end_radius == PAPER_RADIUS;

@@ -58,7 +58,7 @@ impl Demo for CyclideToCone {
             samples: context.samples().min(24),
             seed: context.seed(),
         };
-        let camera = camera();
+        let camera = camera(context.aspect());
         let (mut frames, mut worst) = (Vec::new(), 0.0_f64);
         let bar = context.progress("frames", u64::from(FRAMES));
         for frame in 0..FRAMES {
@@ -166,8 +166,8 @@ fn visible(surface: &CanalCurve) -> f64 {
     }
 }
 
-fn camera() -> Camera {
-    Camera::look_at(dvec3(-1.5, -15.0, 4.0), dvec3(1.2, 0.0, -0.1))
+fn camera(aspect: f64) -> Camera {
+    Camera::look_at(dvec3(-1.5, -15.0, 4.0), dvec3(1.2, 0.0, -0.1), aspect)
 }
 
 fn scene(surfaces: &[CanalCurve; 2], tolerance: f64) -> Result<Scene> {

@@ -1,6 +1,6 @@
 //! All kinds of Dupin cyclides side by side, and Villarceau circles on one of them.
 //!
-//! What one sees: twelve surfaces in three rows on a light ground, coloured by their Gaussian curvature (blue where saddle shaped, red where
+//! What one sees: twelve surfaces in three rows before a light wall, coloured by their Gaussian curvature (blue where saddle shaped, red where
 //! cap shaped), with thin dark lines of curvature, all of them circles, and their principal circles in green. Those that pass through
 //! themselves are opened so that the inner sheet can be seen. In the second picture a ring cyclide of frosted glass carries the Villarceau circles
 //! through one point and a pale ruled strip that touches it along one of them: its rulings do not meet in a point, it is no cone.
@@ -245,7 +245,7 @@ fn circles(animal: &Animal, count: u32, thickness: f64) -> [Mesh; 2] {
 }
 
 fn draw_zoo(context: &mut Context, zoo: &[Animal]) -> Result<()> {
-    let steps = context.pick(360, 80);
+    let steps = context.pick(200, 80);
     let mut scene = Scene::new();
     for (index, animal) in zoo.iter().enumerate() {
         let mesh = painted(animal, steps);
@@ -272,8 +272,9 @@ fn draw_zoo(context: &mut Context, zoo: &[Animal]) -> Result<()> {
         scene.add(thin.transformed(map), Material::matte(INK))?;
         scene.add(thick.transformed(map), Material::matte(GREEN))?;
     }
-    scene.layer("curvature.K");
-    let camera = scene.camera(dvec3(0.0, -1.0, 0.02), context.aspect());
+    let towards_eye = dvec3(0.0, -1.0, 0.02);
+    scene.layer("curvature.K").wall_behind(towards_eye);
+    let camera = scene.camera(towards_eye, context.aspect());
     let names: Vec<&str> = zoo.iter().map(|animal| animal.kind.name()).collect();
     context.render(
         "render",

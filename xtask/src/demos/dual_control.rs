@@ -185,14 +185,16 @@ fn dual_plot(curve: &DualCurve) -> Result<Plot> {
 
 fn triangle_plot() -> Result<Plot> {
     let mut plot = Plot::geometry("T-cubics in triangles");
-    for (corners, shift) in [
+    for (corners, shift, beside_f) in [
         (
             [dvec2(0.0, 0.0), dvec2(2.0, 0.0), dvec2(1.4, 1.3)],
             DVec2::ZERO,
+            Side::AboveRight,
         ),
         (
-            [dvec2(0.0, 0.0), dvec2(2.0, 0.0), dvec2(3.5, 0.4)],
-            dvec2(-0.6, -1.1),
+            [dvec2(0.0, 0.0), dvec2(2.0, 0.0), dvec2(3.5, 0.7)],
+            dvec2(-0.6, -1.4),
+            Side::BelowRight,
         ),
     ] {
         let [a, b, c] = corners.map(|corner| corner + shift);
@@ -209,7 +211,7 @@ fn triangle_plot() -> Result<Plot> {
             plot.text(point, name, side);
         }
         plot.text(cubic.points()[1], "E", Side::Below);
-        plot.text(cubic.points()[2], "F", Side::AboveRight);
+        plot.text(cubic.points()[2], "F", beside_f);
     }
     Ok(plot)
 }
@@ -301,7 +303,13 @@ fn pentagon_plot() -> Result<Plot> {
         plot.point(
             cubic.points()[0],
             ["P₁", "P₂", "P₃", "P₄", "P₅"][k % 5],
-            if k == 0 { Side::BelowLeft } else { Side::Right },
+            [
+                Side::BelowLeft,
+                Side::Right,
+                Side::Right,
+                Side::Right,
+                Side::Left,
+            ][k % 5],
             INK.line(),
         );
     }

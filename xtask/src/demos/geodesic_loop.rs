@@ -6,7 +6,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, ensure};
 use geodesic::{
     GeodesicLoop as Loop, LoopFinder, Mesh as Surface, Straightest, SubdivisionSurface,
     SurfacePoint, TorusClasses, closed_torus_geodesic, shapes,
@@ -14,7 +14,7 @@ use geodesic::{
 use glam::{DVec2, DVec3};
 
 use crate::color::{BLUE, Color, GREEN, INK, MIST, ORANGE, SKY, VERMILION};
-use crate::demo::{Context, Demo};
+use crate::demo::{BadInput, Context, Demo};
 use crate::figure::{Figure, Marker, Plot};
 use crate::mesh::Mesh;
 use crate::render::{Material, Scene};
@@ -49,6 +49,10 @@ impl Demo for GeodesicLoop {
 
 impl GeodesicLoop {
     fn torus(&self, context: &mut Context) -> Result<()> {
+        ensure!(
+            self.major.is_finite() && 0.05 * self.major <= self.minor && self.minor < self.major,
+            BadInput("--minor has to lie between a twentieth of --major and --major".into())
+        );
         let (around, tube) = context.pick((144, 72), (72, 36));
         let mesh = shapes::torus(self.major, self.minor, around, tube)?;
         let parallel: Vec<SurfacePoint> = (0..around).map(SurfacePoint::Vertex).collect();
@@ -63,8 +67,8 @@ impl GeodesicLoop {
             let initial = slanted(around, tube, p, q);
             let tight = LoopFinder::new(&mesh).tighten(&initial)?;
             let found = classes.class_of(&tight.path().points()[1..])?;
-            anyhow::ensure!(found == [p as i32, q as i32], "the loop left its class");
-            anyhow::ensure!(
+            ensure!(found == [p as i32, q as i32], "the loop left its class");
+            ensure!(
                 tight.certify(&mesh)?.is_geodesic(),
                 "the loop is not a geodesic"
             );
@@ -236,7 +240,7 @@ fn ventricle(context: &mut Context) -> Result<()> {
         loops.clear();
         for winding in &mut windings {
             let tight = LoopFinder::new(surface.mesh()).tighten(&winding.tight)?;
-            anyhow::ensure!(
+            ensure!(
                 tight.certify(surface.mesh())?.is_geodesic(),
                 "the loop {:?} is not a geodesic",
                 winding.class
@@ -277,7 +281,11 @@ fn ventricle(context: &mut Context) -> Result<()> {
          tightened from.",
         "A lopsided ring with an orange and a blue closed curve around it.",
     )?;
-    let mut plot = Plot::chart("", "vertices around", "largest turn between segments (rad)");
+    let mut plot = Plot::chart(
+        "loops on finer and finer meshes",
+        "vertices around",
+        "largest turn between segments (rad)",
+    );
     plot.log_x().log_y();
     let series: Vec<DVec2> = turning
         .iter()

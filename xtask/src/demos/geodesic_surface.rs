@@ -228,7 +228,11 @@ fn draw_errors(
     nurbs: &[Carried],
     levels: usize,
 ) -> Result<()> {
-    let mut plot = Plot::chart("", "subdivisions", "error of the length");
+    let mut plot = Plot::chart(
+        "lengths against the geodesic equation",
+        "subdivisions",
+        "error of the length",
+    );
     plot.log_y();
     let series = |errors: &[f64]| -> Vec<DVec2> {
         errors
@@ -273,12 +277,14 @@ fn render_levels(
             levels.subdivide()?;
         }
         let mesh = levels.mesh()?;
+        let facets = Mesh::faceted(mesh.positions(), mesh.faces());
+        let lowest = facets.bounds().map_or(0.0, |[low, _]| low.z);
         let place = DAffine3::from_translation(DVec3::new(
-            3.7 * (level % 2) as f64,
-            -3.9 * (level / 2) as f64,
-            0.0,
+            4.0 * (level % 2) as f64,
+            -4.2 * (level / 2) as f64,
+            -lowest,
         ));
-        let facets = Mesh::faceted(mesh.positions(), mesh.faces()).transformed(place);
+        let facets = facets.transformed(place);
         around.extend(facets.positions.iter().copied());
         scene.add(facets, Material::matte(MIST))?;
         let path = &carried.paths[level];
@@ -303,6 +309,7 @@ fn render_levels(
             scene.add(Mesh::tube(&points, radius, false), Material::glossy(color))?;
         }
     }
+    scene.ground_below();
     let camera = Camera::fit(&around, towards_eye, context.aspect());
     context.render(
         "render-levels",
@@ -348,7 +355,7 @@ fn render(
         }
     }
     scene.ground_below();
-    let camera = scene.camera(DVec3::new(0.45, -1.0, 0.9), context.aspect());
+    let camera = scene.camera(DVec3::new(0.45, -1.0, 0.9), context.aspect_or(1.5));
     context.render(
         name,
         &scene,

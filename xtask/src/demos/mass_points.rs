@@ -100,15 +100,15 @@ fn both_arcs() -> Result<Plot> {
     plot.point(ends[1], "P₂", Side::Left, INK.fill());
     plot.point(top, "P₁", Side::Right, INK.fill());
     plot.colored_text(
-        DVec2::Y,
+        0.62 * DVec2::Y,
         &format!("w₁ = {weight:.2}"),
-        Side::Below,
+        Side::Centre,
         BLUE.line(),
     );
     plot.colored_text(
-        -DVec2::Y,
+        -0.62 * DVec2::Y,
         &format!("w₁ = −{weight:.2}"),
-        Side::Above,
+        Side::Centre,
         VERMILION.line(),
     );
     Ok(plot)
@@ -160,7 +160,7 @@ fn branch_between_vectors() -> Result<Plot> {
         (last, "P₂", Side::BelowLeft),
     ] {
         plot.arrow(centre, centre + vector, VERMILION.line());
-        plot.colored_text(centre + vector, name, side, VERMILION.line());
+        plot.colored_text(centre + 0.55 * vector, name, side, VERMILION.line());
     }
     plot.point(centre, "P₁", Side::Left, INK.fill());
     Ok(plot)

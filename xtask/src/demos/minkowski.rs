@@ -54,7 +54,7 @@ impl Demo for Minkowski {
         plots.extend(second.plots()?);
         context.figure(
             "figure",
-            &Figure::grid(4, plots).aspect(1.0),
+            &Figure::grid(4, plots).aspect(0.9),
             "Above for an ellipse, below for a rational curve of class 8: the indicatrix (blue) and its isoperimetrix \
              (orange); frames along a curve; its evolute (green) and an involute; the offset as the envelope of copies of \
              the indicatrix.",
@@ -119,18 +119,18 @@ const DISTANCE: f64 = 0.7;
 impl<S: Support> Study<S> {
     fn plots(&self) -> Result<Vec<Plot>> {
         let plane = &self.plane;
-        let mut duality = Plot::geometry(&format!("U and U0: {}", self.name));
+        let mut duality = Plot::geometry(&format!("U and U₀: {}", self.name));
         duality.trace(
             |psi| plane.indicatrix_point(psi),
             0.0,
             TAU,
-            BLUE.line().width(2.0),
+            BLUE.line().width(2.0).label("U"),
         );
         duality.trace(
             |psi| plane.isoperimetrix_point(psi),
             0.0,
             TAU,
-            ORANGE.line().width(2.0),
+            ORANGE.line().width(2.0).label("U₀"),
         );
         for psi in [0.4, 2.0] {
             duality.arrow(DVec2::ZERO, plane.indicatrix_point(psi), BLUE.line());
@@ -145,8 +145,16 @@ impl<S: Support> Study<S> {
         for t in [0.25, 0.8, 1.35, 1.9] {
             let [point, derivative, _] = curve(t);
             let frame = plane.frame(derivative)?;
-            frames.arrow(point, point + 0.7 * frame.tangent, BLUE.line());
-            frames.arrow(point, point + 0.7 * frame.normal, ORANGE.line());
+            frames.arrow(
+                point,
+                point + 0.7 * frame.tangent,
+                BLUE.line().label("tangent"),
+            );
+            frames.arrow(
+                point,
+                point + 0.7 * frame.normal,
+                ORANGE.line().label("normal"),
+            );
         }
         let evolute = |t: f64| {
             let [point, derivative, second] = turned(t);
@@ -154,14 +162,14 @@ impl<S: Support> Study<S> {
                 .evolute_point(point, derivative, second)
                 .unwrap_or(DVec2::NAN)
         };
-        bent.trace(evolute, 0.45, SPAN - 0.15, GREEN.line());
+        bent.trace(evolute, 0.45, SPAN - 0.15, GREEN.line().label("evolute"));
         let length = |t: f64| 0.4 + plane.arc_length(0.0, t, 2, |t| turned(t)[1]);
         let involute = |t: f64| {
             plane
                 .involute_point(turned(t)[0], turned(t)[1], length(t))
                 .unwrap_or(DVec2::NAN)
         };
-        bent.trace(involute, 0.0, 1.1, VERMILION.line());
+        bent.trace(involute, 0.0, 1.1, VERMILION.line().label("involute"));
 
         let mut offset = Plot::geometry("general offset");
         let moved = |distance: f64| {
@@ -177,11 +185,16 @@ impl<S: Support> Study<S> {
                 |psi| centre + 0.45 * plane.indicatrix_point(psi),
                 0.0,
                 TAU,
-                MIST.line(),
+                MIST.line().label("copies of U"),
             );
         }
         offset.trace(|t| curve(t)[0], 0.0, SPAN, INK.line().width(2.0));
-        offset.trace(moved(0.45), 0.0, SPAN, BLUE.line().width(2.0));
+        offset.trace(
+            moved(0.45),
+            0.0,
+            SPAN,
+            BLUE.line().width(2.0).label("offsets"),
+        );
         offset.trace(moved(-0.45), 0.0, SPAN, BLUE.line().width(2.0));
         Ok(vec![duality, frames, bent, offset])
     }
@@ -201,13 +214,13 @@ impl<S: Support> Study<S> {
     }
 
     fn control_plot(&self) -> Result<Plot> {
-        let mut plot = Plot::geometry("dual control of an IH curve and of its offset");
+        let mut plot = Plot::geometry("dual control of a curve and its offset");
         let arc = self.isoperimetric_arc()?;
         let offset = arc.offset(DISTANCE)?;
-        for (curve, color) in [
-            (arc.curve(), GREY),
-            (offset.curve(), BLUE),
-            (&self.arc, ORANGE),
+        for (curve, color, name) in [
+            (arc.curve(), GREY, "IH curve"),
+            (offset.curve(), BLUE, "its offset"),
+            (&self.arc, ORANGE, "indicatrix"),
         ] {
             for vector in curve.vectors() {
                 let normal = DVec2::new(vector.y, vector.z);
@@ -216,7 +229,7 @@ impl<S: Support> Study<S> {
                 plot.segment(foot - along, foot + along, color.alpha(0.45).line());
             }
             let point = |t: f64| curve.contact(t).map_or(DVec2::NAN, |contact| contact.point);
-            plot.trace(point, 0.0, 1.0, color.line().width(2.5));
+            plot.trace(point, 0.0, 1.0, color.line().width(2.5).label(name));
         }
         Ok(plot)
     }
@@ -307,12 +320,6 @@ fn moves() -> Vec<Vec<f64>> {
 
 fn width_plot(ovals: &[IsoperimetricArc], bumped: &Bumped) -> Result<Plot> {
     let mut plot = Plot::geometry("constant Minkowski width");
-    plot.trace(
-        |psi| 2.0 * bumped.contact(psi).point,
-        0.0,
-        TAU,
-        GREY.line().dashed(),
-    );
     let mut joints = Vec::new();
     for arc in ovals {
         let point = |t: f64| {
@@ -320,9 +327,16 @@ fn width_plot(ovals: &[IsoperimetricArc], bumped: &Bumped) -> Result<Plot> {
                 .contact(t)
                 .map_or(DVec2::NAN, |contact| contact.point)
         };
-        plot.trace(point, 0.0, 1.0, BLUE.line().width(2.5));
+        plot.trace(point, 0.0, 1.0, BLUE.line().width(2.5).label("oval"));
         joints.push(arc.curve().contact(0.0)?.point);
     }
+    // Nearly the same curve: in another colour above it.
+    plot.trace(
+        |psi| 2.0 * bumped.contact(psi).point,
+        0.0,
+        TAU,
+        ORANGE.line().dashed().label("2 U"),
+    );
     plot.points(&joints, Marker::Disc, BLUE.fill());
     Ok(plot)
 }

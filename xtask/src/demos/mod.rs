@@ -101,6 +101,8 @@ mod wavefront_3d;
 
 use crate::demo::{Entry, entry};
 
+pub(crate) use ribbon::alternating;
+
 /// Every demo, in alphabetical order.
 #[must_use]
 pub fn all() -> Vec<Entry> {

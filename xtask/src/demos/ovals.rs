@@ -15,7 +15,7 @@ use ph_curves::{
 };
 
 use crate::color::{BLUE, GREEN, GREY, INK, MIST, ORANGE, VERMILION};
-use crate::demo::{Context, Demo};
+use crate::demo::{Context, Demo, OrBadInput as _};
 use crate::figure::{Figure, Marker, Plot};
 use crate::report::Target;
 
@@ -58,7 +58,7 @@ impl Demo for Ovals {
         ];
         context.figure(
             "figure",
-            &Figure::grid(2, plots),
+            &Figure::grid(2, plots).aspect(1.15),
             "Involutes of chains of Tschirnhausen cubics, an oval through six curvature elements beside the circle of its \
              width, and an oval whose Bézier lines were moved off that circle's.",
             "Four plots: a rounded triangle with two parallel curves and three cusped cubics inside; a five-lobed closed \
@@ -73,7 +73,7 @@ impl Demo for Ovals {
             "A periodic curve of three waves over one turn.",
         )?;
         let frames = context.pick(60, 6);
-        let width = context.pick(480, 160);
+        let width = context.pick(640, 160);
         let images: Vec<_> = (0..frames)
             .map(|i| frame(&cam, TAU * f64::from(i) / f64::from(frames)).image(width))
             .collect();
@@ -176,16 +176,21 @@ fn evolute_plot(
     for &distance in offsets {
         if let Ok(parallel) = rosette.offset(distance) {
             let style = if distance == 0.0 {
-                BLUE.line().width(2.0)
+                BLUE.line().width(2.0).label("constant width")
             } else {
-                BLUE.alpha(0.45).line()
+                BLUE.alpha(0.45).line().label("offsets")
             };
             plot.trace(outline(&parallel), 0.0, parallel.period(), style);
         }
     }
     for cubic in polygon.cubics() {
         plot.polyline(cubic.points(), MIST.line());
-        plot.trace(|t| cubic.point(t), 0.0, 1.0, VERMILION.line());
+        plot.trace(
+            |t| cubic.point(t),
+            0.0,
+            1.0,
+            VERMILION.line().label("evolute"),
+        );
     }
     let cusps: Vec<DVec2> = polygon
         .cubics()
@@ -200,7 +205,11 @@ fn evolute_plot(
 
 fn interpolation_plot(oval: &Rosette<6>) -> Result<Plot> {
     let mut plot = Plot::geometry("through given curvature elements");
-    plot.circle(DVec2::ZERO, 0.5 * WIDTH, GREY.line().dashed());
+    plot.circle(
+        DVec2::ZERO,
+        0.5 * WIDTH,
+        GREY.line().dashed().label("circle of the width"),
+    );
     for element in elements() {
         let contact = oval.contact(element.0 - ELEMENTS[0].0);
         let toward = contact.centre();
@@ -210,7 +219,7 @@ fn interpolation_plot(oval: &Rosette<6>) -> Result<Plot> {
             contact.radius,
             element.0 - 0.35,
             element.0 + 0.35,
-            ORANGE.line().width(3.0),
+            ORANGE.line().width(3.0).label("elements"),
         );
     }
     plot.trace(outline(oval), 0.0, TAU, BLUE.line().width(2.0));
@@ -230,13 +239,21 @@ fn elements() -> impl Iterator<Item = (f64, SupportJet)> {
 
 fn lines_plot(oval: &Rosette<7>) -> Plot {
     let mut plot = Plot::geometry("of class 6, by moved Bézier lines");
-    plot.circle(DVec2::ZERO, 0.5 * WIDTH, GREY.line().dashed());
+    plot.circle(
+        DVec2::ZERO,
+        0.5 * WIDTH,
+        GREY.line().dashed().label("circle of the width"),
+    );
     for arc in oval.arcs() {
         for vector in arc.control_vectors() {
             let normal = DVec2::new(vector.y, vector.z);
             let foot = -vector.x * normal / normal.length_squared();
             let along = normal.perp().normalize() * 1.6;
-            plot.segment(foot - along, foot + along, GREEN.alpha(0.6).line());
+            plot.segment(
+                foot - along,
+                foot + along,
+                GREEN.alpha(0.6).line().label("Bézier lines"),
+            );
         }
     }
     plot.trace(outline(oval), 0.0, TAU, BLUE.line().width(2.0));
@@ -246,7 +263,7 @@ fn lines_plot(oval: &Rosette<7>) -> Plot {
 impl Ovals {
     /// A motion with three dwells a turn, made antisymmetric: what a cam between two parallel sides can do.
     fn cam(&self) -> Result<Cam> {
-        Ok(Cam::try_new(&lift(), self.arcs)?)
+        Cam::try_new(&lift(), self.arcs).or_bad_input("--arcs")
     }
 }
 
@@ -293,8 +310,8 @@ fn frame(cam: &Cam, angle: f64) -> Figure {
     let mut plot = Plot::geometry("");
     let reach = 0.62 * cam.width;
     plot.view(
-        DVec2::new(-1.25 * reach, -1.35 * reach),
-        DVec2::new(1.25 * reach, 1.35 * reach),
+        DVec2::new(-1.12 * reach, -reach),
+        DVec2::new(1.12 * reach, reach),
     );
     let profile: Vec<DVec2> = (0..400)
         .map(|i| turn.rotate(cam.profile.contact(TAU * f64::from(i) / 400.0).point))
@@ -323,7 +340,7 @@ fn frame(cam: &Cam, angle: f64) -> Figure {
         turn.rotate(contact(top + PI).point),
     ];
     plot.points(&touching, Marker::Disc, VERMILION.fill());
-    Figure::new(plot).aspect(1.0)
+    Figure::new(plot).aspect(1.12)
 }
 
 fn report(

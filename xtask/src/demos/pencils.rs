@@ -188,8 +188,11 @@ fn draw_nets(context: &mut Context, nets: &[Net; 3]) -> Result<()> {
         let mut plot = Plot::geometry(net.title);
         plot.view(dvec2(-2.6, -2.6), dvec2(2.6, 2.6));
         for (pencil, style) in [
-            (&net.orthogonal, GREY.line().width(0.7)),
-            (&net.pencil, BLUE.line().width(1.5)),
+            (
+                &net.orthogonal,
+                GREY.line().width(0.7).label("orthogonal to them"),
+            ),
+            (&net.pencil, BLUE.line().width(1.5).label("members")),
         ] {
             for member in Net::members(pencil) {
                 draw_section(&mut plot, member.object()?, style.clone());
@@ -205,7 +208,7 @@ fn draw_nets(context: &mut Context, nets: &[Net; 3]) -> Result<()> {
     });
     context.figure(
         "figure",
-        &Figure::grid(3, plots.collect::<Result<_>>()?).aspect(1.0),
+        &Figure::grid(3, plots.collect::<Result<_>>()?).aspect(0.85),
         "The three pencils of spheres (blue, in section) with spheres orthogonal to all of them (grey).",
         "Three nets of blue and grey circles that cross at right angles, with their common or limit points in red.",
     )
@@ -239,7 +242,7 @@ fn draw_planes(context: &mut Context, nets: &[Net; 3]) -> Result<()> {
     let style = || BLUE.line().width(2.0);
     let mut circle = Plot::geometry("a circle");
     circle.circle(DVec2::ZERO, 1.0, style().label("members"));
-    circle.arrow(DVec2::ZERO, dvec2(0.8, 0.6), INK.line());
+    circle.arrow(DVec2::ZERO, dvec2(0.8, 0.6), INK.line().label("a member"));
     circle.arrow(
         dvec2(0.8, 0.6),
         dvec2(0.8, 0.6) + 0.8 * dvec2(-0.6, 0.8),
@@ -247,9 +250,17 @@ fn draw_planes(context: &mut Context, nets: &[Net; 3]) -> Result<()> {
     );
     let mut lines = Plot::geometry("two parallel lines");
     for side in [1.0, -1.0] {
-        lines.segment(dvec2(side, -2.0), dvec2(side, 2.0), style());
+        lines.segment(
+            dvec2(side, -2.0),
+            dvec2(side, 2.0),
+            style().label("members"),
+        );
     }
-    lines.arrow(DVec2::ZERO, dvec2(1.0, 0.0), INK.line());
+    lines.arrow(
+        DVec2::ZERO,
+        dvec2(1.0, 0.0),
+        INK.line().label("first member"),
+    );
     lines.arrow(
         dvec2(1.0, 0.0),
         dvec2(1.0, 1.2),
@@ -281,7 +292,7 @@ fn draw_planes(context: &mut Context, nets: &[Net; 3]) -> Result<()> {
     }
     context.figure(
         "figure-planes",
-        &Figure::grid(3, vec![circle, lines, hyperbola]).aspect(0.85),
+        &Figure::grid(3, vec![circle, lines, hyperbola]).aspect(0.8),
         "The pencils on the space of spheres: a unit circle, two lines, a hyperbola with its dual circle of square −1.",
         "A circle with a radius and a tangent arrow; two parallel lines; two hyperbolas with common asymptotes.",
     )
@@ -324,7 +335,7 @@ fn draw_light_cone(context: &mut Context) -> Result<()> {
         for i in -5..=5 {
             let p = point(0.55 * f64::from(i))?;
             scene.add(
-                Mesh::tube(&[DVec3::ZERO, p * (height / p.z).min(1.35)], 0.014, false),
+                Mesh::tube(&[DVec3::ZERO, p * (height / p.z)], 0.014, false),
                 Material::matte(INK),
             )?;
             scene.add(Mesh::sphere(p, 0.085, tolerance), Material::glossy(BLUE))?;
@@ -372,7 +383,7 @@ fn draw_patches(context: &mut Context, patches: &[CanalCurve; 3]) -> Result<()> 
         scene.ground_below();
         Ok(scene)
     };
-    let camera = scene(0.02)?.camera(dvec3(-0.12, -1.0, 0.22), context.aspect());
+    let camera = scene(0.02)?.camera(dvec3(-0.12, -1.0, 0.22), context.aspect_or(2.2));
     let tolerance = 0.25 * camera.tolerance(dvec3(4.1, 0.0, 0.0), context.height());
     context.render(
         "render-patches",

@@ -231,7 +231,7 @@ fn draw_strips(
         )?;
     }
     scene.ground_below();
-    let camera = scene.camera(dvec3(0.1, -1.0, 0.9), context.aspect());
+    let camera = scene.camera(dvec3(0.1, -1.0, 0.9), context.aspect_or(2.0));
     context.render(
         "render",
         &scene,
@@ -296,7 +296,7 @@ fn draw_free_functions(context: &mut Context, strips: [GeodesicStrip; 2]) -> Res
         }
     }
     scene.ground_below();
-    let camera = scene.camera(dvec3(0.0, -1.0, 1.3), context.aspect());
+    let camera = scene.camera(dvec3(0.0, -1.0, 1.3), context.aspect_or(2.3));
     context.render(
         "render-free-functions",
         &scene,

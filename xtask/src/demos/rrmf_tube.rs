@@ -13,7 +13,7 @@ use ph_curves::{
 };
 
 use crate::color::{BLUE, ColorMap, GREY, ORANGE};
-use crate::demo::{Context, Demo};
+use crate::demo::{Context, Demo, OrBadInput as _};
 use crate::export::Part;
 use crate::figure::{Figure, Plot};
 use crate::mesh::Mesh;
@@ -41,7 +41,7 @@ impl Demo for RrmfTube {
     fn run(&self, context: &mut Context) -> Result<()> {
         let quintic = RationalFrameQuintic::from_ends(DVec3::ZERO, FIRST, LAST, ANGLE)?;
         let curve = quintic.curve();
-        let patches = rotation_minimising_tube(&quintic, self.radius)?;
+        let patches = rotation_minimising_tube(&quintic, self.radius).or_bad_input("--radius")?;
         let steps = context.pick(600, 60);
 
         let apart = dvec3(-0.08, 0.22, 0.0);

@@ -118,7 +118,8 @@ impl Straightest {
                 Material::glossy(INK),
             )?;
         }
-        let camera = Camera::fit(&around, towards_eye, context.aspect());
+        scene.ground_below();
+        let camera = Camera::fit(&around, towards_eye, context.aspect_or(1.9));
         context.render(
             "render",
             &scene,

@@ -1,4 +1,6 @@
 //! Text as outlines: DejaVu Sans, whose licence is in `xtask/fonts/DejaVu-LICENSE`.
+//!
+//! A letter after `_` is a subscript: most of them have no character of their own.
 
 use std::sync::OnceLock;
 
@@ -18,14 +20,32 @@ const LINE_HEIGHT: f64 = 1.2;
 /// Depth of the base line under the top of the line, over the size.
 const BASE_LINE: f64 = 0.92;
 
+/// Size of a subscript over that of its text, and how far it stands below the base line, over the size.
+const SUBSCRIPT: (f64, f64) = (0.7, 0.16);
+
+/// The letters of a line, each with whether it is a subscript.
+fn letters(line: &str) -> impl Iterator<Item = (char, bool)> {
+    let mut characters = line.chars().peekable();
+    std::iter::from_fn(move || {
+        let first = characters.next()?;
+        let below = if first == '_' {
+            characters.next()
+        } else {
+            None
+        };
+        Some(below.map_or((first, false), |letter| (letter, true)))
+    })
+}
+
 /// Width and height of a text's box, in points.
 pub(super) fn extent(text: &str, size: f64) -> DVec2 {
     let widths = text.lines().map(|line| {
         face().map_or(0.0, |face| {
-            let advance =
-                |c| glyph(face, c).map_or(0, |id| face.glyph_hor_advance(id).unwrap_or(0));
-            line.chars().map(|c| f64::from(advance(c))).sum::<f64>() * size
-                / f64::from(face.units_per_em())
+            let advance = |(c, is_below): (char, bool)| {
+                let units = glyph(face, c).map_or(0, |id| face.glyph_hor_advance(id).unwrap_or(0));
+                f64::from(units) * if is_below { SUBSCRIPT.0 } else { 1.0 }
+            };
+            letters(line).map(advance).sum::<f64>() * size / f64::from(face.units_per_em())
         })
     });
     let lines = text.lines().count().max(1) as f64;
@@ -43,10 +63,13 @@ pub(super) fn outline(text: &str, size: f64) -> Path {
         scale: 0.0,
     };
     if let Some(face) = face() {
-        pen.scale = size / f64::from(face.units_per_em());
+        let full = size / f64::from(face.units_per_em());
         for (number, line) in text.lines().enumerate() {
-            pen.origin = DVec2::new(0.0, (BASE_LINE + 1.35 * number as f64) * size);
-            for c in line.chars() {
+            pen.origin.x = 0.0;
+            for (c, is_below) in letters(line) {
+                let (scale, drop) = if is_below { SUBSCRIPT } else { (1.0, 0.0) };
+                pen.scale = full * scale;
+                pen.origin.y = (BASE_LINE + 1.35 * number as f64 + drop) * size;
                 if let Some(id) = glyph(face, c) {
                     // A blank has no outline.
                     let _ = face.outline_glyph(id, &mut pen);
@@ -112,8 +135,24 @@ mod tests {
     }
 
     #[test]
+    fn a_subscript_is_smaller_and_lower() {
+        assert_eq!(
+            letters("a_b_").collect::<Vec<_>>(),
+            [('a', false), ('b', true), ('_', false)]
+        );
+        let [plain, below] = ["Rd", "R_d"].map(|text| {
+            let points = outline(text, 20.0).samples(1.0);
+            (
+                extent(text, 20.0).x,
+                points.iter().map(|p| p.y).fold(0.0, f64::max),
+            )
+        });
+        assert!(below.0 < plain.0 && below.1 > plain.1 + 2.0);
+    }
+
+    #[test]
     fn letters_stay_in_their_box() {
-        let text = "Ägypten, Wg";
+        let text = "Ägypten, W_e";
         let size = extent(text, 20.0);
         for p in outline(text, 20.0).samples(1.0) {
             assert!(

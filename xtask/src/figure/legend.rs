@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use super::axes::{marker_mark, styled};
 use super::font;
+use super::items::{marker_mark, styled};
 use super::mark::{Mark, Rect};
 use super::path::Path;
 use super::plot::{Corner, Item, Marker, Plot};

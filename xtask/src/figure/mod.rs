@@ -25,6 +25,7 @@
 
 mod axes;
 mod font;
+mod items;
 mod legend;
 mod mark;
 mod path;

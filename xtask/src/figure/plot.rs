@@ -101,6 +101,8 @@ pub struct Plot {
     pub(super) scales: [Scale; 2],
     pub(super) view: Option<[DVec2; 2]>,
     pub(super) legend: Option<Corner>,
+    /// Names of x = 1, 2, ... in place of numbers.
+    pub(super) categories: Vec<String>,
 }
 
 impl Plot {
@@ -115,6 +117,7 @@ impl Plot {
             scales: [Scale::Linear; 2],
             view: None,
             legend: None,
+            categories: Vec::new(),
         }
     }
 
@@ -151,6 +154,12 @@ impl Plot {
     pub fn log_y(&mut self) -> &mut Self {
         self.scales[1] = Scale::Log;
         self.equal = false;
+        self
+    }
+
+    /// The x axis names its places 1, 2, ... and has no other ticks.
+    pub fn categories(&mut self, names: &[&str]) -> &mut Self {
+        self.categories = names.iter().map(|&name| name.into()).collect();
         self
     }
 
@@ -196,7 +205,8 @@ impl Plot {
         end: f64,
         style: Style,
     ) -> &mut Self {
-        self.polyline(&sample(&f, start, end), style)
+        let points = sample(&f, start, end, self.equal);
+        self.polyline(&points, style)
     }
 
     /// The graph `y = f(x)` over `[start, end]`.
@@ -281,20 +291,28 @@ const MAX_HALVINGS: u32 = 6;
 /// a third of a pixel on a picture of 1280.
 const FLATNESS: f64 = 2.5e-4;
 
-fn sample(f: &impl Fn(f64) -> DVec2, start: f64, end: f64) -> Vec<DVec2> {
+/// With `equal` units on both axes bends are seen as they are, otherwise each axis is stretched to the picture.
+fn sample(f: &impl Fn(f64) -> DVec2, start: f64, end: f64, equal: bool) -> Vec<DVec2> {
     let at = |i: usize| start + (end - start) * i as f64 / FIRST_SPANS as f64;
     let first: Vec<DVec2> = (0..=FIRST_SPANS).map(|i| f(at(i))).collect();
     let finite = || first.iter().filter(|p| p.is_finite());
     let low = finite().copied().fold(DVec2::INFINITY, DVec2::min);
     let high = finite().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
-    let tolerance = FLATNESS * (high - low).length();
+    let size = high - low;
+    let stretch = if equal {
+        DVec2::splat(size.length().recip())
+    } else {
+        size.recip()
+    };
+    // A curve without any extent on an axis does not bend there.
+    let stretch = DVec2::select(stretch.is_finite_mask(), stretch, DVec2::ZERO);
     let mut points = vec![first[0]];
     for (i, pair) in first.windows(2).enumerate() {
         halve(
             f,
             [at(i), at(i + 1)],
             [pair[0], pair[1]],
-            tolerance,
+            stretch,
             MAX_HALVINGS,
             &mut points,
         );
@@ -306,19 +324,23 @@ fn halve(
     f: &impl Fn(f64) -> DVec2,
     [a, b]: [f64; 2],
     [from, to]: [DVec2; 2],
-    tolerance: f64,
+    stretch: DVec2,
     depth: u32,
     out: &mut Vec<DVec2>,
 ) {
     let middle = 0.5 * (a + b);
     let at = f(middle);
-    let chord = to - from;
-    let off = (at - from).perp_dot(chord).abs() / chord.length().max(f64::MIN_POSITIVE);
-    let flat = off <= tolerance && (at - from).dot(at - to) <= 0.0;
+    let (chord, before, after) = (
+        (to - from) * stretch,
+        (at - from) * stretch,
+        (at - to) * stretch,
+    );
+    let off = before.perp_dot(chord).abs() / chord.length().max(f64::MIN_POSITIVE);
+    let flat = off <= FLATNESS && before.dot(after) <= 0.0;
     if depth == 0 || flat || !(from.is_finite() || to.is_finite()) {
         out.push(to);
     } else {
-        halve(f, [a, middle], [from, at], tolerance, depth - 1, out);
-        halve(f, [middle, b], [at, to], tolerance, depth - 1, out);
+        halve(f, [a, middle], [from, at], stretch, depth - 1, out);
+        halve(f, [middle, b], [at, to], stretch, depth - 1, out);
     }
 }

@@ -28,6 +28,10 @@ impl Scale {
     pub(super) fn ticks(self, low: f64, high: f64, wanted: f64) -> Vec<Tick> {
         match self {
             Self::Linear => linear_ticks(low, high, wanted),
+            // Of half a decade most tenths are missing: even steps then.
+            Self::Log if high - low < 0.5 => {
+                linear_ticks(10_f64.powf(low), 10_f64.powf(high), wanted)
+            }
             // Less than two decades: their tenths, as numbers.
             Self::Log if high - low < 1.5 => log_tenths(low, high),
             Self::Log => decades(low, high, wanted),

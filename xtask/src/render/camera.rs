@@ -10,6 +10,8 @@ pub struct Camera {
     axes: [DVec3; 3],
     /// Half the picture's height at distance one.
     half_height: f64,
+    /// The picture's width over its height.
+    aspect: f64,
 }
 
 /// Vertical angle of view unless another is asked for: that of a portrait lens, which does not distort.
@@ -18,15 +20,16 @@ const FIELD_OF_VIEW: f64 = 0.46;
 const BORDER: f64 = 0.06;
 
 impl Camera {
-    /// A camera at `eye` that looks at `target`.
+    /// A camera at `eye` that looks at `target`, for pictures of width over height `aspect`.
     #[must_use]
-    pub fn look_at(eye: DVec3, target: DVec3) -> Self {
+    pub fn look_at(eye: DVec3, target: DVec3, aspect: f64) -> Self {
         let forward = (target - eye).normalize_or(DVec3::Y);
         let right = forward.cross(DVec3::Z).try_normalize().unwrap_or(DVec3::X);
         Self {
             eye,
             axes: [right, right.cross(forward), forward],
             half_height: (0.5 * FIELD_OF_VIEW).tan(),
+            aspect: aspect.clamp(0.01, 100.0),
         }
     }
 
@@ -44,7 +47,7 @@ impl Camera {
     #[must_use]
     pub fn fit(points: &[DVec3], towards_eye: DVec3, aspect: f64) -> Self {
         let towards_eye = towards_eye.normalize_or(DVec3::new(0.5, -1.0, 0.5).normalize());
-        let camera = Self::look_at(towards_eye, DVec3::ZERO);
+        let camera = Self::look_at(towards_eye, DVec3::ZERO, aspect);
         let [right, up, _] = camera.axes;
         let room = camera.half_height * (1.0 - 2.0 * BORDER);
         // Each point asks, in each of four directions, for the eye to be behind a plane through it:
@@ -55,7 +58,7 @@ impl Camera {
                 .map(|p| (p.dot(side) + p.dot(towards_eye) * room) / room)
                 .fold(f64::NEG_INFINITY, f64::max)
         };
-        let wide = room * aspect.max(0.1);
+        let wide = room * camera.aspect;
         let (r, l, t, b) = (
             needs(right, wide),
             needs(-right, wide),
@@ -90,6 +93,12 @@ impl Camera {
     #[must_use]
     pub const fn half_height(&self) -> f64 {
         self.half_height
+    }
+
+    /// Width over height of the picture.
+    #[must_use]
+    pub const fn aspect(&self) -> f64 {
+        self.aspect
     }
 
     /// Where a point is in a picture of this size (pixels from the top left corner), and its distance
@@ -159,7 +168,7 @@ mod tests {
 
     #[test]
     fn a_step_of_one_pixel_size_is_one_pixel() {
-        let camera = Camera::look_at(DVec3::new(1.0, -5.0, 2.0), DVec3::ZERO);
+        let camera = Camera::look_at(DVec3::new(1.0, -5.0, 2.0), DVec3::ZERO, 4.0 / 3.0);
         let p = DVec3::new(0.3, 0.2, -0.1);
         let step = camera.axes()[0] * camera.pixel_size(p, 300);
         let moved = camera.project(p + step, 400, 300) - camera.project(p, 400, 300);

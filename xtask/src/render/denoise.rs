@@ -9,7 +9,7 @@
 use glam::{Vec3A, vec3a};
 use rayon::prelude::*;
 
-use super::picture::Seen;
+use super::picture::{Behind, Seen};
 
 /// Rings of neighbours: the last one is this power of two pixels wide.
 const RINGS: u32 = 5;
@@ -73,12 +73,8 @@ impl<'a> Frame<'a> {
         })
     }
 
-    /// Whether other things are seen through what is in the middle of a pixel.
-    pub(super) fn is_clear(&self, x: u32, y: u32) -> bool {
-        self.seen[y as usize * self.width + x as usize].is_clear
-    }
-
-    /// Whether a pixel touches another object, a fold of the surface, or a change of its paint.
+    /// Whether a pixel touches another object, a fold of the surface, or a change of its paint; or one of these
+    /// is seen through it.
     pub(super) fn is_edge(&self, x: u32, y: u32) -> bool {
         let (x, y) = (x as usize, y as usize);
         let own = &self.seen[y * self.width + x];
@@ -86,21 +82,56 @@ impl<'a> Frame<'a> {
             .map(|index| &self.seen[index])
             .any(|other| {
                 other.id != own.id
-                    || other.normal.dot(own.normal) < NORMAL_EDGE * own.normal.length_squared()
-                    || (other.paint - own.paint).abs().max_element() > PAINT_EDGE
-                    || !continues(own, other)
+                    || !Spot::of(own).continues(&Spot::of(other))
+                    || match (own.behind, other.behind) {
+                        (Some(own), Some(other)) => {
+                            other.passed != own.passed
+                                || !Spot::behind(own).continues(&Spot::behind(other))
+                        }
+                        // Equal objects are clear or not.
+                        _ => false,
+                    }
             })
     }
 }
 
-/// Whether a neighbour lies on the same sheet, as seen from both: the chord leaves neither tangent plane steeply.
-fn continues(own: &Seen, other: &Seen) -> bool {
-    let offset = other.point - own.point;
-    let steep = offset
-        .dot(own.normal)
-        .abs()
-        .min(offset.dot(other.normal).abs());
-    steep <= 0.5 * offset.length() + 1e-5
+/// A spot of a painted surface.
+struct Spot {
+    point: Vec3A,
+    normal: Vec3A,
+    paint: Vec3A,
+}
+
+impl Spot {
+    const fn of(seen: &Seen) -> Self {
+        Self {
+            point: seen.point,
+            normal: seen.normal,
+            paint: seen.paint,
+        }
+    }
+
+    fn behind(behind: Behind) -> Self {
+        let [point, normal, paint] = [behind.point, behind.normal, behind.paint].map(Vec3A::from);
+        Self {
+            point,
+            normal,
+            paint,
+        }
+    }
+
+    /// Whether a neighbour lies on the same sheet without a fold or a change of paint between: the chord, as seen
+    /// from both, leaves neither tangent plane steeply.
+    fn continues(&self, other: &Self) -> bool {
+        let offset = other.point - self.point;
+        let steep = offset
+            .dot(self.normal)
+            .abs()
+            .min(offset.dot(other.normal).abs());
+        other.normal.dot(self.normal) >= NORMAL_EDGE * self.normal.length_squared()
+            && (other.paint - self.paint).abs().max_element() <= PAINT_EDGE
+            && steep <= 0.5 * offset.length() + 1e-5
+    }
 }
 
 fn brightness(light: Vec3A) -> f32 {

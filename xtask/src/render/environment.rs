@@ -25,8 +25,16 @@ pub(super) struct Studio {
     key: [Vec3A; 3],
     /// Middles of the panels with their radiance.
     panels: [(Vec3A, f32, f32); 2],
-    /// Height of the ground in the unit ball's coordinates.
-    pub(super) ground: Option<f32>,
+    pub(super) ground: Option<Ground>,
+}
+
+/// The plane that takes shadows, in the unit ball's coordinates: the ground, or a wall.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ground {
+    /// Unit, towards the scene.
+    pub(super) normal: Vec3A,
+    /// Of the plane from the origin, along the normal.
+    pub(super) offset: f32,
 }
 
 impl Studio {
@@ -54,7 +62,10 @@ impl Studio {
                     1.5,
                 ),
             ],
-            ground: scene.ground.map(|z| ((z - centre.z) / unit) as f32),
+            ground: scene.ground.map(|(normal, offset)| Ground {
+                normal: normal.as_vec3a(),
+                offset: ((offset - centre.dot(normal)) / unit) as f32,
+            }),
         }
     }
 
@@ -80,6 +91,17 @@ impl Studio {
         } else {
             HORIZON.lerp(NADIR, (-height).sqrt())
         }
+    }
+
+    /// What a diffuse surface gets from the sky if nothing stands before it: the mean of [`Studio::sky`] over the hemisphere,
+    /// weighted by the cosine.
+    pub(super) fn open_sky(normal: Vec3A) -> Vec3A {
+        // The mean of the square root of the height, over the half of the sky that is seen.
+        const FLAT: f32 = 0.8;
+        const UPRIGHT: f32 = 0.61;
+        let flat = HORIZON.lerp(ZENITH, FLAT);
+        let upright = 0.5 * (HORIZON.lerp(ZENITH, UPRIGHT) + HORIZON.lerp(NADIR, UPRIGHT));
+        upright.lerp(flat, normal.z.clamp(0.0, 1.0))
     }
 
     /// What a glazed surface mirrors from `direction`.

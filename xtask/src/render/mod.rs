@@ -35,6 +35,7 @@ mod picture;
 mod sampler;
 mod scene;
 mod shade;
+mod surface;
 mod wide;
 
 pub use accel::{Accel, Hit};
@@ -153,8 +154,7 @@ fn pixel(shader: &Shader<'_>, view: &View, frame: &Frame<'_>, x: u32, y: u32) ->
     let options = view.options;
     let number = u64::from(y) * u64::from(options.width) + u64::from(x);
     let is_edge = frame.is_edge(x, y);
-    // What is seen through glass has edges of its own.
-    let count = if is_edge || frame.is_clear(x, y) {
+    let count = if is_edge {
         options.samples
     } else {
         options.samples / INSIDE

@@ -3,7 +3,7 @@
 use std::io::{Seek, Write};
 
 use anyhow::Result;
-use glam::Vec3A;
+use glam::{Vec3, Vec3A};
 
 use super::exr;
 use crate::image::Image;
@@ -23,8 +23,19 @@ pub(super) struct Seen {
     pub(super) point: Vec3A,
     /// The colour of the surface.
     pub(super) paint: Vec3A,
-    /// Whether other things are seen through it.
-    pub(super) is_clear: bool,
+    /// What is seen through it, if it is clear.
+    pub(super) behind: Option<Behind>,
+}
+
+/// What is seen through clear shells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Behind {
+    /// A number that differs where the ray passes other shells or ends elsewhere.
+    pub(super) passed: u32,
+    /// The place, unit normal and paint at the end: an opaque surface, the ground or the backdrop.
+    pub(super) point: Vec3,
+    pub(super) normal: Vec3,
+    pub(super) paint: Vec3,
 }
 
 impl Seen {
@@ -100,8 +111,9 @@ impl Picture {
     /// The picture for the screen.
     #[must_use]
     pub fn image(&self) -> Image {
-        let bytes = self.colors.iter().flat_map(|color| {
-            let [r, g, b] = tone_map(color.to_array()).map(display);
+        let bytes = (0..).zip(&self.colors).flat_map(|(index, color)| {
+            let threshold = threshold(index % self.width, index / self.width);
+            let [r, g, b] = tone_map(color.to_array()).map(|c| display(c, threshold));
             [r, g, b, 255]
         });
         Image::new(self.width, self.height, bytes.collect())
@@ -142,15 +154,24 @@ fn tone_map(color: [f32; 3]) -> [f32; 3] {
     })
 }
 
-/// The byte that shows a linear value.
-fn display(linear: f32) -> u8 {
+/// Where between two bytes a value rounds up, by Bayer's pattern of eight by eight pixels: with one threshold for
+/// all pixels, a smooth backdrop shows bands.
+fn threshold(x: u32, y: u32) -> f32 {
+    let rank = (0..3).fold(0, |rank, bit| {
+        rank << 2 | ((x ^ y) >> bit & 1) << 1 | y >> bit & 1
+    });
+    (rank as f32 + 0.5) / 64.0
+}
+
+/// The byte that shows a linear value, rounded up from this part of the way to the next.
+fn display(linear: f32, threshold: f32) -> u8 {
     let c = linear.clamp(0.0, 1.0);
     let encoded = if c <= 0.003_130_8 {
         12.92 * c
     } else {
         1.055 * c.powf(1.0 / 2.4) - 0.055
     };
-    (encoded * 255.0).round() as u8
+    (encoded * 255.0 + threshold).floor() as u8
 }
 
 #[cfg(test)]
@@ -165,6 +186,20 @@ mod tests {
             assert!(r == g && g == b && r > before && r < 1.0, "{i}: {r}");
             before = r;
         }
-        assert_eq!([0.0, 1.0, 0.5].map(display), [0, 255, 188]);
+        assert_eq!([0.0, 1.0, 0.5].map(|c| display(c, 0.5)), [0, 255, 188]);
+    }
+
+    #[test]
+    fn a_dithered_value_is_right_on_average() {
+        let mut ranks = [false; 64];
+        let mut sum = 0.0;
+        for (x, y) in (0..8).flat_map(|x| (0..8).map(move |y| (x, y))) {
+            let threshold = threshold(x, y);
+            ranks[(threshold * 64.0) as usize] = true;
+            assert_eq!(display(1.0, threshold), 255);
+            sum += f32::from(display(0.5, threshold));
+        }
+        assert!(ranks.iter().all(|&met| met));
+        assert!((sum / 64.0 - 187.516).abs() < 0.02, "{sum}");
     }
 }

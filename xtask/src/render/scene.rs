@@ -19,7 +19,8 @@ pub(super) struct Object {
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     pub(super) objects: Vec<Object>,
-    pub(super) ground: Option<f64>,
+    /// Unit normal of the plane that takes shadows, and its offset along it.
+    pub(super) ground: Option<(DVec3, f64)>,
     pub(super) light: Option<DVec3>,
     layer: Option<String>,
 }
@@ -45,7 +46,7 @@ impl Scene {
 
     /// A ground at height `z`, seamless with the backdrop, that takes shadows. Its number is 0.
     pub const fn ground(&mut self, z: f64) -> &mut Self {
-        self.ground = Some(z);
+        self.ground = Some((DVec3::Z, z));
         self
     }
 
@@ -53,6 +54,22 @@ impl Scene {
     pub fn ground_below(&mut self) -> &mut Self {
         let lowest = self.points().map(|p| p.z).fold(f64::INFINITY, f64::min);
         self.ground(if lowest.is_finite() { lowest } else { 0.0 })
+    }
+
+    /// Instead of a ground, an upright wall behind everything that has been added so far, for things that hang in rows: it
+    /// stands across the horizontal part of `towards_eye`, and the last thing but touches it. The light comes more from the
+    /// front then, so that a shadow stays with its thing.
+    pub fn wall_behind(&mut self, towards_eye: DVec3) -> &mut Self {
+        let normal = towards_eye
+            .with_z(0.0)
+            .try_normalize()
+            .unwrap_or(DVec3::NEG_Y);
+        let farthest = self
+            .points()
+            .map(|p| p.dot(normal))
+            .fold(f64::INFINITY, f64::min);
+        self.ground = farthest.is_finite().then_some((normal, farthest));
+        self.light_from(normal + 0.5 * DVec3::Z - 0.35 * DVec3::Z.cross(normal))
     }
 
     /// The key light, from this direction.

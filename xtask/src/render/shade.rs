@@ -2,15 +2,15 @@
 
 use std::f32::consts::{PI, TAU};
 
-use glam::{Vec3A, vec3a};
+use glam::{Vec3, Vec3A};
 
 use super::accel::{Accel, Hit};
 use super::environment::{KEY, Studio, smoothstep};
-use super::material::{Finish, Material, Paint};
-use super::picture::Seen;
+use super::material::Finish;
+use super::picture::{Behind, Seen};
 use super::sampler::Sampler;
 use super::scene::Scene;
-use crate::color::Color;
+use super::surface::{Surface, Vertices, reflect};
 
 /// Distance by which rays start off a surface, in the unit ball's coordinates: some hundred roundings.
 const OFFSET: f32 = 3e-5;
@@ -18,8 +18,6 @@ const OFFSET: f32 = 3e-5;
 const MOST_SHELLS: usize = 16;
 /// Share of light that a clear coat mirrors head on: that of glass and glaze in air.
 const HEAD_ON: f32 = 0.04;
-/// Half the width of an isoline, in the unit ball's coordinates.
-const LINE: f32 = 0.0028;
 
 /// The light along one ray: all of it, and the diffuse part taken apart, whose noise the denoiser may
 /// smooth without touching colours and mirror images.
@@ -41,28 +39,6 @@ impl Sample {
     }
 }
 
-/// A surface point as the shader sees it.
-struct Surface {
-    point: Vec3A,
-    /// Shading normal on the viewer's side.
-    normal: Vec3A,
-    /// The triangle's own normal on the viewer's side.
-    plane: Vec3A,
-    /// Where rays towards the light start.
-    start: Vec3A,
-    color: Vec3A,
-    finish: Finish,
-}
-
-/// Vertex data of one object in the unit ball's coordinates.
-struct Vertices {
-    positions: Vec<Vec3A>,
-    normals: Vec<Vec3A>,
-    scalar: Option<Vec<f32>>,
-    triangles: Vec<[u32; 3]>,
-    material: Material,
-}
-
 /// Everything that a ray may ask.
 pub(super) struct Shader<'a> {
     accel: &'a Accel,
@@ -72,26 +48,14 @@ pub(super) struct Shader<'a> {
 
 impl<'a> Shader<'a> {
     pub(super) fn new(scene: &Scene, accel: &'a Accel, studio: &'a Studio) -> Self {
-        let vertices = scene.objects.iter().map(|object| Vertices {
-            positions: object
-                .mesh
-                .positions
-                .iter()
-                .map(|&p| accel.local(p))
-                .collect(),
-            normals: object.mesh.normals.iter().map(|n| n.as_vec3a()).collect(),
-            scalar: object
-                .mesh
-                .scalar
-                .as_ref()
-                .map(|s| s.iter().map(|&x| x as f32).collect()),
-            triangles: object.mesh.triangles.clone(),
-            material: object.material,
-        });
         Self {
             accel,
             studio,
-            objects: vertices.collect(),
+            objects: scene
+                .objects
+                .iter()
+                .map(|object| Vertices::new(object, accel))
+                .collect(),
         }
     }
 
@@ -102,12 +66,8 @@ impl<'a> Shader<'a> {
         match self.accel.trace(eye, direction, 0.0) {
             Some(hit) if ground.is_none_or(|distance| hit.distance <= distance) => {
                 let object = &self.objects[hit.object as usize];
-                let normal = object.normal(&hit);
-                let normal = if normal.dot(direction) > 0.0 {
-                    -normal
-                } else {
-                    normal
-                };
+                let normal = object.facing_normal(&hit, direction);
+                let is_clear = object.material.finish == Finish::Glass;
                 Seen {
                     depth: depth(hit.distance),
                     normal,
@@ -115,23 +75,57 @@ impl<'a> Shader<'a> {
                     scalar: object.scalar(&hit).unwrap_or(0.0),
                     point: eye + direction * hit.distance,
                     paint: object.color(&hit, normal, direction),
-                    is_clear: object.material.finish == Finish::Glass,
+                    behind: is_clear.then(|| self.behind(eye, direction, &hit)),
                 }
             }
             _ => Seen {
                 depth: ground.map_or(Seen::FAR, depth),
-                normal: if ground.is_some() {
-                    Vec3A::Z
-                } else {
-                    Vec3A::ZERO
-                },
+                normal: self.ground_normal(ground),
                 id: 0,
                 scalar: 0.0,
                 point: ground.map_or(Vec3A::ZERO, |distance| eye + direction * distance),
                 paint: Vec3A::ZERO,
-                is_clear: false,
+                behind: None,
             },
         }
+    }
+
+    /// What is seen through the clear shell that a ray meets first.
+    fn behind(&self, eye: Vec3A, direction: Vec3A, first: &Hit) -> Behind {
+        let ground = self.ground_distance(eye, direction);
+        let mut passed = first.object + 1;
+        let mut nearest = first.distance + OFFSET;
+        for _ in 1..MOST_SHELLS {
+            let hit = self.accel.trace(eye, direction, nearest);
+            let Some(hit) = hit.filter(|hit| ground.is_none_or(|far| hit.distance <= far)) else {
+                break;
+            };
+            let object = &self.objects[hit.object as usize];
+            passed = passed.wrapping_mul(31).wrapping_add(hit.object + 1);
+            if object.material.finish != Finish::Glass {
+                let normal = object.facing_normal(&hit, direction);
+                return Behind {
+                    passed,
+                    point: (eye + direction * hit.distance).into(),
+                    normal: normal.into(),
+                    paint: object.color(&hit, normal, direction).into(),
+                };
+            }
+            nearest = hit.distance + OFFSET;
+        }
+        let point = ground.map_or(Vec3A::ZERO, |distance| eye + direction * distance);
+        Behind {
+            passed: passed.wrapping_mul(31),
+            point: point.into(),
+            normal: self.ground_normal(ground).into(),
+            paint: Vec3::ZERO,
+        }
+    }
+
+    /// The ground's normal where a ray meets it, none where it does not.
+    fn ground_normal(&self, distance: Option<f32>) -> Vec3A {
+        let ground = distance.and(self.studio.ground);
+        ground.map_or(Vec3A::ZERO, |ground| ground.normal)
     }
 
     /// Light along a ray from the eye.
@@ -139,19 +133,27 @@ impl<'a> Shader<'a> {
         let mut sample = Sample::default();
         let mut passed = Vec3A::ONE;
         let mut nearest = 0.0;
-        for _ in 0..MOST_SHELLS {
+        for shell in 0..MOST_SHELLS {
             let ground = self.ground_distance(eye, direction);
             let hit = self.accel.trace(eye, direction, nearest);
             let hit = hit.filter(|hit| ground.is_none_or(|distance| hit.distance <= distance));
             let Some(hit) = hit else {
-                let lighting = ground.map_or(Vec3A::ONE, |distance| {
-                    self.ground_lighting(eye + direction * distance, sampler)
-                });
+                let lighting =
+                    ground
+                        .zip(self.studio.ground)
+                        .map_or(Vec3A::ONE, |(distance, ground)| {
+                            self.ground_lighting(eye + direction * distance, ground.normal, sampler)
+                        });
                 sample.add(passed, Studio::backdrop(direction), lighting, Vec3A::ZERO);
                 return sample;
             };
             let surface = self.surface(eye, direction, &hit);
-            let (albedo, lighting, mirrored) = self.shade(&surface, direction, sampler);
+            let is_behind = shell > 0 && surface.finish == Finish::Glass;
+            let (albedo, lighting, mirrored) = if is_behind {
+                self.dim_shade(&surface, direction, sampler)
+            } else {
+                self.shade(&surface, direction, sampler)
+            };
             if surface.finish != Finish::Glass {
                 sample.add(passed, albedo, lighting, mirrored);
                 return sample;
@@ -168,19 +170,22 @@ impl<'a> Shader<'a> {
     }
 
     fn ground_distance(&self, eye: Vec3A, direction: Vec3A) -> Option<f32> {
-        let height = eye.z - self.studio.ground?;
-        let distance = -height / direction.z;
-        (height > 0.0 && direction.z < 0.0 && distance.is_finite()).then_some(distance)
+        let ground = self.studio.ground?;
+        let (height, slope) = (
+            eye.dot(ground.normal) - ground.offset,
+            direction.dot(ground.normal),
+        );
+        let distance = -height / slope;
+        (height > 0.0 && slope < 0.0 && distance.is_finite()).then_some(distance)
     }
 
     /// How much light the ground gets, over what it would get if nothing stood on it.
-    fn ground_lighting(&self, point: Vec3A, sampler: &mut Sampler) -> Vec3A {
-        let start = point + Vec3A::Z * OFFSET;
-        let key = KEY * self.studio.key().z.max(0.1);
-        let got = key * self.key_visibility(start, Vec3A::Z, sampler)
-            + self.sky(start, Vec3A::Z, sampler);
-        let open = key + vec3a(0.39, 0.43, 0.495);
-        (got / open).min(Vec3A::ONE)
+    fn ground_lighting(&self, point: Vec3A, normal: Vec3A, sampler: &mut Sampler) -> Vec3A {
+        let start = point + normal * OFFSET;
+        let key = KEY * self.studio.key().dot(normal).max(0.1);
+        let got =
+            key * self.key_visibility(start, normal, sampler) + self.sky(start, normal, sampler);
+        (got / (key + Studio::open_sky(normal))).min(Vec3A::ONE)
     }
 
     fn key_visibility(&self, start: Vec3A, normal: Vec3A, sampler: &mut Sampler) -> f32 {
@@ -223,14 +228,7 @@ impl<'a> Shader<'a> {
         direction: Vec3A,
         sampler: &mut Sampler,
     ) -> (Vec3A, Vec3A, Vec3A) {
-        let facing = surface.normal.dot(self.studio.key());
-        let visible = if facing > 0.0 {
-            self.key_visibility(surface.start, surface.plane, sampler)
-        } else {
-            0.0
-        };
-        let key = KEY * (facing.max(0.0) * visible);
-        let lighting = key + self.sky(surface.start, surface.normal, sampler);
+        let (lighting, visible) = self.lighting(surface, sampler);
         if surface.finish == Finish::Matte {
             return (surface.color, lighting, Vec3A::ZERO);
         }
@@ -239,6 +237,43 @@ impl<'a> Shader<'a> {
         let glint = glint(surface.normal, towards_eye, self.studio.key()) * visible;
         let mirrored = self.mirrored(surface, direction) * share + KEY * glint;
         (surface.color * (1.0 - share), lighting, mirrored)
+    }
+
+    /// The shade of a clear shell behind another: every other ray is lit, for two, and nothing but the studio is mirrored.
+    fn dim_shade(
+        &self,
+        surface: &Surface,
+        direction: Vec3A,
+        sampler: &mut Sampler,
+    ) -> (Vec3A, Vec3A, Vec3A) {
+        let [choice, _] = sampler.pair();
+        let lighting = if choice < 0.5 {
+            2.0 * self.lighting(surface, sampler).0
+        } else {
+            Vec3A::ZERO
+        };
+        let share = fresnel(surface.normal.dot(-direction).clamp(0.0, 1.0));
+        let mirror = reflect(direction, surface.normal);
+        (
+            surface.color * (1.0 - share),
+            lighting,
+            self.studio.mirrored(mirror) * share,
+        )
+    }
+
+    /// The light that falls on a surface, and the part of the key light that is seen from there.
+    fn lighting(&self, surface: &Surface, sampler: &mut Sampler) -> (Vec3A, f32) {
+        let facing = surface.normal.dot(self.studio.key());
+        let visible = if facing > 0.0 {
+            self.key_visibility(surface.start, surface.plane, sampler)
+        } else {
+            0.0
+        };
+        let key = KEY * (facing.max(0.0) * visible);
+        (
+            key + self.sky(surface.start, surface.normal, sampler),
+            visible,
+        )
     }
 
     /// What a clear coat mirrors: the studio, or another surface.
@@ -277,108 +312,6 @@ impl<'a> Shader<'a> {
         }
         .facing(direction)
     }
-}
-
-impl Surface {
-    /// Near the outline an interpolated normal may lean away from the viewer: it is bent back.
-    fn facing(self, direction: Vec3A) -> Self {
-        let away = self.normal.dot(direction);
-        debug_assert!(self.point.is_finite());
-        if away < 0.0 {
-            return self;
-        }
-        let normal = (self.normal - direction * (away + 0.01)).normalize_or(self.plane);
-        Self { normal, ..self }
-    }
-}
-
-impl Vertices {
-    fn corners(&self, hit: &Hit) -> [usize; 3] {
-        self.triangles[hit.triangle as usize].map(|i| i as usize)
-    }
-
-    fn normal(&self, hit: &Hit) -> Vec3A {
-        let [a, b, c] = self.corners(hit);
-        let [u, v, w] = hit.weights;
-        (self.normals[a] * u + self.normals[b] * v + self.normals[c] * w).normalize_or(hit.plane)
-    }
-
-    fn scalar(&self, hit: &Hit) -> Option<f32> {
-        let scalar = self.scalar.as_ref()?;
-        let [a, b, c] = self.corners(hit);
-        let [u, v, w] = hit.weights;
-        Some(scalar[a] * u + scalar[b] * v + scalar[c] * w).filter(|x| x.is_finite())
-    }
-
-    /// The point lifted from the facet to the surface that the vertex normals describe, so that a
-    /// facet does not shade its neighbour where the light grazes (Hanika, *Hacking the shadow
-    /// terminator*, Ray Tracing Gems II, 2021).
-    fn smooth_point(&self, hit: &Hit, point: Vec3A, behind: bool) -> Vec3A {
-        let side = if behind { -1.0 } else { 1.0 };
-        let lift = |(&corner, weight): (&usize, f32)| {
-            let normal = self.normals[corner] * side;
-            let below = (point - self.positions[corner]).dot(normal).min(0.0);
-            normal * (-below * weight)
-        };
-        self.corners(hit)
-            .iter()
-            .zip(hit.weights)
-            .map(lift)
-            .fold(point, |sum, lift| sum + lift)
-    }
-
-    fn color(&self, hit: &Hit, normal: Vec3A, direction: Vec3A) -> Vec3A {
-        let linear = |color: Color| Vec3A::from_array(color.linear());
-        match self.material.paint {
-            Paint::Plain(color) => linear(color),
-            Paint::Zebra { stripes } => {
-                let mirror = reflect(direction, normal);
-                let angle = mirror.dot(vec3a(0.36, 0.48, 0.8)).clamp(-1.0, 1.0).acos();
-                let wave = (angle * stripes).sin();
-                Vec3A::splat(0.025).lerp(Vec3A::splat(0.9), smoothstep(-0.08, 0.08, wave))
-            }
-            Paint::Scalar {
-                map,
-                low,
-                high,
-                isolines,
-            } => {
-                let Some(value) = self.scalar(hit) else {
-                    return linear(crate::color::GREY);
-                };
-                let color = linear(map.at((f64::from(value) - low) / (high - low)));
-                let line = isolines.map_or(0.0, |spacing| self.isoline(hit, value, spacing as f32));
-                color * (1.0 - 0.85 * line)
-            }
-        }
-    }
-
-    /// One on an isoline, zero off it: the distance to the next multiple of `spacing` is the difference of
-    /// the numbers over the length of their gradient in the triangle.
-    fn isoline(&self, hit: &Hit, value: f32, spacing: f32) -> f32 {
-        let Some(scalar) = &self.scalar else {
-            return 0.0;
-        };
-        let [a, b, c] = self.corners(hit);
-        let (e1, e2) = (
-            self.positions[b] - self.positions[a],
-            self.positions[c] - self.positions[a],
-        );
-        let (d1, d2) = (scalar[b] - scalar[a], scalar[c] - scalar[a]);
-        let normal = e1.cross(e2);
-        let gradient = (e2 * d1 - e1 * d2).cross(normal) / normal.length_squared();
-        let off = (value - spacing * (value / spacing).round()).abs();
-        let distance = off / gradient.length();
-        1.0 - smoothstep(
-            0.6 * LINE,
-            1.2 * LINE,
-            if distance.is_nan() { 1.0 } else { distance },
-        )
-    }
-}
-
-fn reflect(direction: Vec3A, normal: Vec3A) -> Vec3A {
-    direction - normal * (2.0 * direction.dot(normal))
 }
 
 /// Schlick's approximation of the share of light that a clear coat mirrors.

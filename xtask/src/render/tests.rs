@@ -95,7 +95,7 @@ fn layers_hold_what_the_scene_holds() {
         )
         .unwrap();
     scene.layer("geodesic.D");
-    let camera = Camera::look_at(DVec3::new(0.0, -6.0, 0.0), DVec3::ZERO);
+    let camera = Camera::look_at(DVec3::new(0.0, -6.0, 0.0), DVec3::ZERO, 4.0 / 3.0);
     let options = Options {
         width: 49,
         height: 37,
@@ -199,7 +199,7 @@ fn shadows_fall_on_the_ground_and_the_empty_scene_is_the_backdrop() {
         .add(Mesh::sphere(DVec3::ZERO, 1.0, 1e-3), Material::matte(BLUE))
         .unwrap();
     scene.ground(-1.0).light_from(DVec3::new(-1.0, 0.0, 1.0));
-    let camera = Camera::look_at(DVec3::new(0.0, -12.0, 6.0), DVec3::ZERO);
+    let camera = Camera::look_at(DVec3::new(0.0, -12.0, 6.0), DVec3::ZERO, 4.0 / 3.0);
     let picture = render(
         &scene,
         &camera,

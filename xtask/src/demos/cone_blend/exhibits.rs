@@ -179,7 +179,7 @@ fn arranged(exhibits: &[Exhibit]) -> Vec<(&Model, DAffine3)> {
             let [low, high] = mesh.bounds()?;
             let scale = 1.0 / (high - low).max_element();
             let (column, row) = ((index % columns) as f64, (index / columns) as f64);
-            let place = dvec3(1.4 * column, 1.75 * row, 0.0);
+            let place = dvec3(1.4 * column, 2.05 * row, 0.0);
             let middle = dvec3(0.5 * (low.x + high.x), 0.5 * (low.y + high.y), low.z);
             Some((
                 &exhibit.model,
@@ -196,8 +196,8 @@ fn arranged(exhibits: &[Exhibit]) -> Vec<(&Model, DAffine3)> {
 pub(super) fn draw_gallery(context: &mut Context, gallery: &[Exhibit]) -> Result<()> {
     let placed = arranged(gallery);
     let materials = glossy();
-    let camera =
-        scene_of(&placed, |_| 0.02, materials)?.camera(dvec3(-0.25, -1.0, 0.62), context.aspect());
+    let camera = scene_of(&placed, |_| 0.02, materials)?
+        .camera(dvec3(-0.25, -1.0, 0.66), context.aspect_or(1.5));
     let height = context.height();
     let scene = scene_of(&placed, |p| 0.5 * camera.tolerance(p, height), materials)?;
     let names: Vec<&str> = gallery.iter().map(|exhibit| exhibit.name).collect();

@@ -36,7 +36,7 @@ fn strip_pair() -> Result<([Cone; 2], Family)> {
 pub(super) fn draw_diagonal(context: &mut Context) -> Result<()> {
     let (cones, family) = strip_pair()?;
     let flat = |p: DVec3| glam::dvec2(p.x, p.z);
-    let mut plot = Plot::geometry("the types along a diagonal");
+    let mut plot = Plot::geometry("the types of blends along a diagonal");
     for cone in &cones {
         let across = DVec3::Y.cross(cone.axis());
         for side in [1.0, -1.0] {
@@ -45,7 +45,11 @@ pub(super) fn draw_diagonal(context: &mut Context) -> Result<()> {
                     + height * cone.axis()
                     + side * (cone.radius() + height * cone.half_angle().tan()) * across
             };
-            plot.segment(flat(at(-7.0)), flat(at(7.0)), GREY.line());
+            plot.segment(
+                flat(at(-7.0)),
+                flat(at(7.0)),
+                GREY.line().label("the cones"),
+            );
         }
     }
     let diagonal = family.diagonal().ok_or_else(|| anyhow!("no diagonal"))?;
@@ -88,8 +92,13 @@ pub(super) fn draw_diagonal(context: &mut Context) -> Result<()> {
             continue;
         };
         if flat(x).length() < 4.6 {
-            let name = ["R (μ = a)", "S (μ = −a)", "φ₁ (μ = c)", "φ₂ (μ = −c)"][index];
-            plot.point(flat(x), name, Side::Right, INK.fill());
+            let (name, side) = [
+                ("R (μ = a)", Side::Left),
+                ("S (μ = −a)", Side::AboveRight),
+                ("φ₁ (μ = c)", Side::BelowLeft),
+                ("φ₂ (μ = −c)", Side::AboveRight),
+            ][index];
+            plot.point(flat(x), name, side, INK.fill());
         }
     }
     if let Some(sphere) = family.common_sphere() {
@@ -121,7 +130,11 @@ pub(super) fn draw_strip(context: &mut Context) -> Result<()> {
             .fold(0.0_f64, |reach, t| reach.max(t.abs()));
     let parameter = |frame: u32| reach * (2.0 * (f64::from(frame) + 0.5) / f64::from(frames) - 1.0);
     let materials = glossy();
-    let camera = Camera::look_at(dvec3(-5.4, -18.4, 7.6), dvec3(0.4, 0.0, 0.4));
+    let camera = Camera::look_at(
+        dvec3(-5.4, -18.4, 7.6),
+        dvec3(0.4, 0.0, 0.4),
+        context.aspect(),
+    );
     let mut images = Vec::new();
     let mut kinds = BTreeSet::new();
     let bar = context.progress("strip", u64::from(frames));
@@ -182,19 +195,13 @@ fn strip_scene(
     }
     let surface = *blend.surface();
     let turn = std::f64::consts::TAU;
-    let mut mesh = Mesh::grid(420, 420, |u, v| {
+    let mesh = Mesh::grid(420, 420, |u, v| {
         (
             surface.point(turn * u, turn * v),
             surface.normal(turn * u, turn * v),
         )
     });
-    let near: Vec<bool> = mesh.positions.iter().map(|p| p.length() < REACH).collect();
-    mesh.triangles.retain(|triangle| {
-        triangle
-            .iter()
-            .all(|&i| near.get(i as usize).copied().unwrap_or(false))
-    });
-    scene.add(mesh, surface_material)?;
+    scene.add(mesh.cut(|p| REACH - p.length()), surface_material)?;
     let rings = Mesh::merged(
         blend
             .contacts()
@@ -210,5 +217,6 @@ fn strip_scene(
     if !rings.positions.is_empty() {
         scene.add(rings, Material::matte(INK))?;
     }
+    scene.ground(-REACH);
     Ok(scene)
 }

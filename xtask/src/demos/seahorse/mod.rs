@@ -288,7 +288,7 @@ fn draw_design(context: &mut Context, model: &Model) -> Result<()> {
             );
             plot.point(
                 plane(sphere.centre()),
-                &format!("S{i}"),
+                &format!("S_{i}"),
                 Side::Right,
                 BLUE.fill(),
             );

@@ -6,7 +6,7 @@
 
 mod measure;
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, ensure};
 use glam::{DVec2, dvec2};
 use variation::{
     ChainBound, Curve, Line, PoleStrategy, chain_bound, chain_bound_by, corollary_bound,
@@ -14,7 +14,7 @@ use variation::{
 };
 
 use crate::color::{BLUE, GREEN, GREY, INK, MIST, ORANGE, VERMILION};
-use crate::demo::{Context, Demo, OrBadInput};
+use crate::demo::{BadInput, Context, Demo};
 use crate::figure::{Corner, Figure, Marker, Plot, Side};
 use crate::report::Target;
 
@@ -51,7 +51,10 @@ impl Demo for Variation {
     const ABOUT: &'static str = "Refined variation-diminishing bounds by poles";
 
     fn run(&self, context: &mut Context) -> Result<()> {
-        variation::chain_bound(&[1.0, -1.0], &[self.pole]).or_bad_input("--pole Z")?;
+        ensure!(
+            (0.0..=1.0).contains(&self.pole),
+            BadInput(format!("--pole {} lies outside [0, 1]", self.pole))
+        );
         context.figure(
             "figure1",
             &Figure::new(polar_cubic(self.pole)?),
@@ -139,7 +142,7 @@ fn polar_cubic(pole: f64) -> Result<Plot> {
         plot.point(at, name, side, INK.fill());
     }
     let names = ["q₀ = f(a,a,ζ)", "q₁ = f(a,b,ζ)", "q₂ = f(b,b,ζ)"];
-    let sides = [Side::BelowRight, Side::Above, Side::Right];
+    let sides = [Side::Left, Side::Above, Side::Right];
     for ((at, name), side) in q.iter().zip(names).zip(sides) {
         plot.point(*at, name, side, VERMILION.fill());
     }
@@ -158,7 +161,7 @@ fn subpolynomials() -> Result<Plot> {
     plot.view(dvec2(-0.04, -11.0), dvec2(1.04, 20.0));
     let polygon = control_polygon(&SUBPOLYNOMIALS);
     plot.segment(dvec2(0.0, 0.0), dvec2(1.0, 0.0), INK.line().width(0.8));
-    plot.polyline(&polygon, GREY.line().dashed());
+    plot.polyline(&polygon, GREY.line().dashed().label("control polygon of F"));
     for (part, color, name) in [
         (&SUBPOLYNOMIALS[..], BLUE, "F: p₀ .. p₅"),
         (&SUBPOLYNOMIALS[..3], GREEN, "F₁: p₀ p₁ p₂"),
@@ -222,8 +225,13 @@ fn curve_with_polygon(title: &str) -> Result<(Plot, Curve<'static>)> {
     let curve = Curve::polynomial(&CURVE)?;
     let mut plot = Plot::geometry(title);
     plot.view(dvec2(-0.6, 0.2), dvec2(8.2, 4.2));
-    plot.polyline(&CURVE, GREY.line().dashed());
-    plot.trace(|t| curve.point(t), 0.0, 1.0, BLUE.line().width(2.4));
+    plot.polyline(&CURVE, GREY.line().dashed().label("control polygon"));
+    plot.trace(
+        |t| curve.point(t),
+        0.0,
+        1.0,
+        BLUE.line().width(2.4).label("curve"),
+    );
     Ok((plot, curve))
 }
 
@@ -235,7 +243,7 @@ fn inner_curve() -> Result<Plot> {
     let bold = VERMILION.line().width(3.0);
     plot.polyline(&CURVE[..=k], bold.clone());
     plot.trace(|t| inner.point(t), 0.0, 1.0, bold.clone());
-    plot.polyline(&CURVE[l..], bold);
+    plot.polyline(&CURVE[l..], bold.label("bold line"));
     draw_lines(&mut plot, curve, |p| {
         let bound = corollary_bound(p, k, l)?;
         let inside = roots(&bound.middle)?
@@ -257,7 +265,7 @@ fn pole_third() -> Result<Plot> {
         .chain(inner.iter().copied())
         .chain([last])
         .collect();
-    plot.polyline(&bold, VERMILION.line().width(3.0));
+    plot.polyline(&bold, VERMILION.line().width(3.0).label("bold line"));
     draw_lines(&mut plot, curve, |p| Ok(chain_bound(p, &[pole])?.best))?;
     plot.points(&CURVE, Marker::Disc, INK.fill());
     plot.points(&inner, Marker::Square, VERMILION.fill());
@@ -330,11 +338,10 @@ fn animation(context: &mut Context) -> Result<()> {
             let mut plot = chain_plot(&format!("pole {pole:.2}"), &THREE_TO_ONE, &[pole])?;
             plot.view(dvec2(-0.04, -14.0), dvec2(1.04, 26.0));
             plot.segment(dvec2(pole, -14.0), dvec2(pole, 26.0), MIST.line());
-            plot.point(
-                dvec2(pole, graph(&THREE_TO_ONE, pole)),
-                "F(ζ)",
-                Side::Above,
-                GREEN.fill(),
+            plot.points(
+                &[dvec2(pole, graph(&THREE_TO_ONE, pole))],
+                Marker::Disc,
+                GREEN.fill().label("F(ζ)"),
             );
             plot.legend(Corner::TopLeft);
             Ok(Figure::new(plot).image(width))

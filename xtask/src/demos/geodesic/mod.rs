@@ -5,21 +5,20 @@
 //! terrain (or the mesh given) in the ray tracer, coloured by the exact distance from the first start point with a line at
 //! every further step, and red paths that cross these lines at right angles.
 
+mod figures;
+mod shapes;
+
 use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Result, ensure};
-use geodesic::{
-    DistanceField, GeodesicPath, Mesh as Surface, PathFinder, Start, Sweep, TriangleSoup, shapes,
-};
-use glam::{DVec2, DVec3};
-use serde_json::json;
+use geodesic::{DistanceField, GeodesicPath, Mesh as Surface, PathFinder, Sweep};
+use glam::DVec3;
 
-use crate::color::ColorMap;
-use crate::color::{BLUE, GREY, INK, MIST, SKY, VERMILION};
+use crate::color::{BLUE, ColorMap, INK, VERMILION};
 use crate::demo::{BadInput, Context, Demo, OrBadInput};
-use crate::figure::{Figure, Marker, Plot, Side};
 use crate::mesh::Mesh;
+use crate::random::Random;
 use crate::render::{Material, Scene};
 use crate::report::Target;
 
@@ -70,8 +69,8 @@ impl Demo for Geodesic {
         if self.exact {
             measure_exact(context, &mesh, &pairs, &paths)?;
         }
-        draw_cube(context)?;
-        draw_updates(context)?;
+        figures::draw_cube(context)?;
+        figures::draw_updates(context)?;
         render(context, &mesh, &pairs, &paths)
     }
 }
@@ -82,10 +81,10 @@ impl Geodesic {
             return Surface::read_obj(path).or_bad_input("--mesh");
         }
         Ok(match self.shape {
-            Shape::Cube => shapes::cube()?,
-            Shape::Bumpy => bumpy(context.pick(5, 4))?,
-            Shape::Genus2 => shapes::plate(2, context.pick(4, 3))?,
-            Shape::Terrain => terrain(context.pick(4000, 1200), context.seed())?,
+            Shape::Cube => geodesic::shapes::cube()?,
+            Shape::Bumpy => shapes::bumpy(context.pick(5, 4))?,
+            Shape::Genus2 => geodesic::shapes::plate(2, context.pick(4, 3))?,
+            Shape::Terrain => shapes::terrain(context.pick(4000, 1200), context.seed())?,
         })
     }
 
@@ -97,7 +96,7 @@ impl Geodesic {
             }
             (None, Some((from, to))) => vec![[from, to]],
             (None, None) => {
-                let mut random = Random(seed);
+                let mut random = Random::new(seed);
                 let mut vertex = || (random.unit() * mesh.vertex_count() as f64) as u32;
                 // The same start for all, so that the picture shows them against the distance from it.
                 let start = vertex();
@@ -171,136 +170,6 @@ fn measure_exact(
     context.number("min_ratio_to_exact", smallest, Target::AtLeast(1.0 - 1e-12));
     context.number("mean_ratio_to_exact", mean, Target::Free);
     context.number("max_ratio_to_exact", largest, Target::Free);
-    Ok(())
-}
-
-/// The cube of Fig. 2.1: the path between opposite corners, and another geodesic that is longer.
-fn draw_cube(context: &mut Context) -> Result<()> {
-    let cube = shapes::cube()?;
-    let mut finder = PathFinder::new(&cube);
-    let opposite = finder.shortest(0.into(), 7.into())?.clone();
-    // Once round the four sides, over the four edges that stand up.
-    let mut guide = vec![cube.face_point(4, [0.6, 0.2, 0.2])?];
-    for (low, high) in [(1, 5), (3, 7), (2, 6), (0, 4)] {
-        guide.push(cube.edge_point(low, high, 0.5)?);
-    }
-    guide.push(cube.face_point(5, [0.1, 0.5, 0.4])?);
-    let round = finder.guided(&guide)?.clone();
-    let direct = finder.shortest(guide[0], guide[5])?.length();
-    ensure!(
-        round.certify(&cube)?.is_geodesic(),
-        "the way round the cube is not a geodesic"
-    );
-    let plots = vec![
-        unfolded(&cube, &opposite, "from corner to corner: √5"),
-        unfolded(
-            &cube,
-            &round,
-            &format!(
-                "a geodesic of length {:.3}; the shortest: {direct:.3}",
-                round.length()
-            ),
-        ),
-    ];
-    context.figure(
-        "figure-cube",
-        &Figure::grid(1, plots).aspect(3.0),
-        "Faces of a cube laid flat with geodesics: straight lines.",
-        "Two strips of triangles, each crossed by a straight red line.",
-    )
-}
-
-/// A path in the plane of its faces.
-fn unfolded(mesh: &Surface, path: &GeodesicPath, title: &str) -> Plot {
-    let mut flat = path.unfold(mesh);
-    // From left to right.
-    let chord = flat.points[flat.points.len() - 1] - flat.points[0];
-    let turn = DVec2::new(chord.x, -chord.y).normalize_or(DVec2::X);
-    flat.points.iter_mut().for_each(|p| *p = turn.rotate(*p));
-    flat.corners
-        .iter_mut()
-        .flatten()
-        .for_each(|p| *p = turn.rotate(*p));
-    let mut plot = Plot::geometry(title);
-    for corners in &flat.corners {
-        plot.polygon(corners, SKY.alpha(0.18).fill().stroke(GREY).width(0.6));
-    }
-    plot.polyline(&flat.points, VERMILION.line().width(2.2));
-    let pivots: Vec<DVec2> = path
-        .pivots()
-        .iter()
-        .map(|pivot| flat.points[pivot.index])
-        .collect();
-    plot.points(&pivots, Marker::Disc, INK.fill());
-    let ends = [flat.points[0], flat.points[flat.points.len() - 1]];
-    plot.point(ends[0], "X₀", Side::Left, VERMILION.fill());
-    plot.point(ends[1], "X₁", Side::Right, VERMILION.fill());
-    plot
-}
-
-/// A path on a terrain seen from above, from the edges to the geodesic, and its faces before and after.
-fn draw_updates(context: &mut Context) -> Result<()> {
-    let mesh = terrain(160, 3)?;
-    let nearest = |x: f64, y: f64| {
-        let at = DVec2::new(x, y);
-        let distance = |p: &DVec3| p.truncate().distance(at);
-        let found = mesh
-            .positions()
-            .iter()
-            .enumerate()
-            .min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
-        found.map_or(0, |(v, _)| v as u32)
-    };
-    let (from, to) = (nearest(0.7, 0.9), nearest(9.2, 9.4));
-    let mut finder = PathFinder::new(&mesh).with_start(Start::Faces);
-    let stages = finder.stages(from.into(), to.into())?;
-    let shown = 4.min(stages.len());
-    let mut plots = Vec::new();
-    for k in 0..shown {
-        let index = k * (stages.len() - 1) / (shown - 1).max(1);
-        let stage = &stages[index];
-        let mut plot = Plot::geometry(&match index {
-            0 => format!("initial sequence: {:.3}", stage.length()),
-            _ => format!("after {index} updates: {:.3}", stage.length()),
-        });
-        let faces = stage.unfold(&mesh).faces;
-        for (f, face) in mesh.faces().iter().enumerate() {
-            let corners = face.map(|v| mesh.positions()[v as usize].truncate());
-            let fill = if faces.contains(&(f as u32)) {
-                SKY.alpha(0.45)
-            } else {
-                MIST.alpha(0.25)
-            };
-            plot.polygon(&corners, fill.fill().stroke(GREY.alpha(0.6)).width(0.4));
-        }
-        let line: Vec<DVec2> = stage.positions().iter().map(|p| p.truncate()).collect();
-        plot.polyline(&line, VERMILION.line().width(2.0));
-        let pivots: Vec<DVec2> = stage
-            .pivots()
-            .iter()
-            .map(|pivot| line[pivot.index])
-            .collect();
-        plot.points(&pivots, Marker::Disc, INK.fill());
-        plots.push(plot);
-    }
-    context.figure(
-        "figure",
-        &Figure::grid(2, plots).aspect(1.0),
-        "A path on a terrain, seen from above, from the initial sequence of faces (blue) to the geodesic; black: pivots.",
-        "Four plans of a triangulated terrain with a red path that straightens from one to the next.",
-    )?;
-    let last = stages.len() - 1;
-    let strips = vec![
-        unfolded(&mesh, &stages[0], "the initial sequence laid flat"),
-        unfolded(&mesh, &stages[last], "the final one"),
-    ];
-    context.figure(
-        "figure-strips",
-        &Figure::grid(1, strips).aspect(2.2),
-        "The faces of the first and of the last path laid flat: straight but for the pivots.",
-        "Two long strips of triangles with a red path inside, bent in the upper and nearly straight in the lower.",
-    )?;
-    context.number("updates", json!(last), Target::Free);
     Ok(())
 }
 
@@ -383,65 +252,4 @@ fn isolines(
     context.number("isolines", count, Target::Free);
     context.number("isoline_max_error", worst, Target::AtMost(1e-9));
     Ok(tubes)
-}
-
-/// A sphere with bumps.
-fn bumpy(level: u32) -> Result<Surface> {
-    let mut soup = TriangleSoup::from(shapes::sphere(level)?);
-    for p in &mut soup.positions {
-        *p *= 1.0
-            + 0.12 * (7.0 * p.x).sin() * (6.0 * p.y).cos()
-            + 0.1 * (5.0 * p.z + 2.0 * p.x).sin();
-    }
-    Ok(soup.try_into()?)
-}
-
-/// A terrain of 10 by 10 over scattered points, with a ridge among its edges.
-fn terrain(points: usize, seed: u64) -> Result<Surface> {
-    let height = |p: DVec2| {
-        let hills = 0.7 * (1.1 * p.x).sin() * (0.9 * p.y + 0.5).cos()
-            + 0.25 * (2.3 * p.x - 1.7 * p.y).sin();
-        let ridge = (-(p.y - 0.6 * p.x - 2.0).powi(2) / 0.5).exp();
-        hills + 1.4 * ridge
-    };
-    let mut random = Random(seed);
-    let mut plan: Vec<DVec2> = Vec::new();
-    let side = (points as f64).sqrt().ceil() as u32;
-    for k in 0..side {
-        let t = 10.0 * f64::from(k) / f64::from(side);
-        plan.extend([
-            DVec2::new(t, 0.0),
-            DVec2::new(10.0, t),
-            DVec2::new(10.0 - t, 10.0),
-            DVec2::new(0.0, 10.0 - t),
-        ]);
-    }
-    // One point in each cell, so that no triangle is too thin.
-    for cell in 0..side * side {
-        let corner = DVec2::new(f64::from(cell % side), f64::from(cell / side));
-        let inside = 0.15 + 0.7 * DVec2::new(random.unit(), random.unit());
-        plan.push((corner + inside) * 10.0 / f64::from(side));
-    }
-    let first = plan.len() as u32;
-    let ridge = 24;
-    plan.extend((1..ridge).map(|k| {
-        let x = 10.0 * f64::from(k) / f64::from(ridge);
-        DVec2::new(x, 0.6 * x + 2.0)
-    }));
-    let breaklines: Vec<[u32; 2]> = (first..first + ridge - 2).map(|v| [v, v + 1]).collect();
-    let points: Vec<DVec3> = plan.iter().map(|p| p.extend(height(*p))).collect();
-    Ok(Surface::terrain(&points, &breaklines)?)
-}
-
-/// A small generator of random numbers: the same on every machine.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }
