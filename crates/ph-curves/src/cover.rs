@@ -77,8 +77,8 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
                 };
                 match run {
                     Some(before) if !straight && self.goes_on(&before.end, &start) => {
-                        if start.curvature == 0.0 && start.t == 0.0 {
-                            self.inflections.push(start);
+                        if before.end.curvature == 0.0 && before.end.t == 1.0 {
+                            self.inflections.push(before.end);
                         }
                         start = before.start;
                     }

@@ -81,7 +81,10 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         };
         attempt
             .or_else(|| self.single_or_none(interval, within, chord))
-            .or_else(|| self.bridge(interval, chord))
+            .or_else(|| {
+                // Shorter pieces may do better than a segment over knots.
+                (start.span == end.span).then(|| self.bridge(interval, chord))?
+            })
     }
 
     /// An arc of class 3 where it is the best that there is: for class 9 only where an end has no curvature that could be matched.

@@ -170,7 +170,7 @@ fn survive(how: impl Fn(f64) -> Approximation) {
     assert!(refused <= 10, "{refused} of 1000 refused");
 }
 
-/// Samples far denser than the tolerance needs: arcs run over many knots, and stay G2.
+/// Samples far denser than the tolerance needs: arcs run over many knots.
 #[test]
 fn dense_samples_take_few_arcs() {
     for count in [1000_u32, 4000] {
@@ -185,7 +185,8 @@ fn dense_samples_take_few_arcs() {
             let result = approximate(&curve, &Approximation::within(tolerance)).unwrap();
             let pieces = result.spline.pieces().len();
             assert!(pieces <= 125, "{count} samples, {tolerance}: {pieces}");
-            assert_eq!(result.g1_joints, 0);
+            // Next to an inflection one span within the tolerance of its chord may be a segment between two corners.
+            assert!(result.g1_joints <= 4, "{}", result.g1_joints);
             assert!(error(&curve, &result, 40) <= tolerance);
         }
     }
