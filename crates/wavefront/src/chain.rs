@@ -3,6 +3,7 @@
 use bezier_mass::BezierCurve;
 use glam::DVec2;
 
+use crate::strip::{Reach, Strip};
 use crate::{Error, Impact};
 
 /// Bézier curves one after the other. The parameter is the number of the piece plus that on the piece.
@@ -36,8 +37,11 @@ struct Bounds {
 const END_SLACK: f64 = 1e-12;
 /// Newton's method from a neighbouring ray's place; it doubles its digits, and is given up for the certified search.
 const GUIDED_STEPS: usize = 10;
-/// Behind a step this small (in the piece's parameter) Newton's method has converged: the next one is below rounding.
-const CONVERGED: f64 = 1e-8;
+/// From a place this near (in the piece's parameter) a step of the third order ends the search: what it leaves is the cube of
+/// this, below rounding.
+const CONVERGED: f64 = 1e-5;
+/// The part of that step which is of the second order is the square of its length in a well-placed search, no more than this.
+const CURVED: f64 = 1e-10;
 /// A piece of a higher degree is not put in powers, where digits would be lost.
 const MOST_POWERS: usize = 8;
 /// The pieces of a chain meet to this share of one and their distance from the origin.
@@ -91,6 +95,36 @@ impl Chain {
     pub(crate) fn point(&self, parameter: f64) -> Option<DVec2> {
         let (index, t) = self.locate(parameter);
         self.pieces[index].curve.jet(t).position()
+    }
+
+    /// The length of the derivative by the parameter.
+    pub(crate) fn speed(&self, parameter: f64) -> Option<f64> {
+        let (index, t) = self.locate(parameter);
+        Some(self.pieces[index].jet(t)?[1].length())
+    }
+
+    /// Whether the rays of a strip surely do not meet the chain, or not once more where they start on it (`left`): the pieces
+    /// that they may pass are neighbours and run across all of the rays in one sense, so that each ray meets them once.
+    pub(crate) fn is_clear_of(&self, strip: &Strip, reach: &Reach, left: bool) -> bool {
+        let clear = std::cell::Cell::new(true);
+        let (mut last, mut sense) = (None::<usize>, 0.0);
+        self.visit_pieces(
+            |bounds| match bounds.circle() {
+                Some((centre, radius)) => {
+                    clear.get()
+                        && reach.is_ahead(centre, radius)
+                        && strip.may_pass(centre, radius + reach.slack)
+                }
+                None => !bounds.is_empty(),
+            },
+            |index| {
+                let across = strip.sense_across(self.pieces[index].curve.control());
+                let is_next = last.is_none_or(|last| last + 1 == index && across == sense);
+                clear.set(left && across != 0.0 && is_next && clear.get());
+                (last, sense) = (Some(index), across);
+            },
+        );
+        clear.get()
     }
 
     #[inline]
@@ -219,12 +253,20 @@ impl Chain {
         for _ in 0..GUIDED_STEPS {
             let (index, t) = self.locate(parameter);
             let [position, slope, bend] = self.pieces[index].jet(t)?;
-            let step = -velocity.perp_dot(position - origin) / velocity.perp_dot(slope);
+            let approach = velocity.perp_dot(slope).recip();
+            let step = -velocity.perp_dot(position - origin) * approach;
+            let curved = -0.5 * step * step * velocity.perp_dot(bend) * approach;
             parameter += step;
             if !(parameter > -END_SLACK && parameter < self.pieces.len() as f64 + END_SLACK) {
                 return None;
             }
-            if step.abs() <= CONVERGED {
+            // Behind a joint another piece goes on.
+            if step.abs() <= CONVERGED
+                && curved.abs() <= CURVED
+                && self.locate(parameter).0 == index
+            {
+                parameter += curved;
+                let step = step + curved;
                 let position = position + step * (slope + 0.5 * step * bend);
                 let jet = [position, slope + step * bend, bend];
                 let impact = impact(jet, parameter, origin, velocity)?;
@@ -366,11 +408,12 @@ fn impact(
     if speed == 0.0 {
         return None;
     }
+    let inverse = speed.recip();
     Some(Impact {
         time: velocity.dot(point - origin) / velocity.length_squared(),
         point,
-        tangent: slope / speed,
-        curvature: slope.perp_dot(bend) / (speed * speed * speed),
+        tangent: slope * inverse,
+        curvature: slope.perp_dot(bend) * inverse * inverse * inverse,
         parameter,
     })
 }
@@ -398,6 +441,16 @@ impl Bounds {
         high: DVec2::INFINITY,
     };
 
+    fn is_empty(&self) -> bool {
+        self.low.x > self.high.x
+    }
+
+    /// The circle around a box; none for an empty or an infinite one.
+    fn circle(&self) -> Option<(DVec2, f64)> {
+        let half = 0.5 * (self.high - self.low);
+        (!self.is_empty() && half.is_finite()).then(|| (self.low + half, half.length()))
+    }
+
     fn union(self, other: Self) -> Self {
         Self {
             low: self.low.min(other.low),
@@ -408,7 +461,7 @@ impl Bounds {
     /// Whether a ray may meet the box before `latest`. Written so that infinite boxes, whose centre is no number, pass.
     #[inline]
     fn may_meet(&self, origin: DVec2, velocity: DVec2, latest: f64) -> bool {
-        if self.low.x > self.high.x {
+        if self.is_empty() {
             return false;
         }
         let centre = 0.5 * (self.low + self.high) - origin;

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use crate::strip::{Knot, Strip};
+use crate::strip::{Knot, Reach, Strip};
 use crate::trace::{Failure, Landing};
-use crate::{Code, Cut, Error, Front, FrontTolerance, Model, Ray, Source, Trace};
+use crate::{Code, Cut, Error, Front, FrontTolerance, Medium, Model, Ray, Source, Trace};
 
 /// The exact rays of a source with one history, as a table over the source's parameter from which rays to given points
 /// are found and refined, and fronts are fitted.
@@ -29,8 +29,13 @@ pub struct Fan<'m> {
 pub(crate) struct Run {
     pub(crate) parameters: Vec<f64>,
     pub(crate) traces: Vec<Trace>,
+    /// The front's normals at the source.
+    normals: Vec<DVec2>,
     /// Between each two rays.
     pub(crate) strips: Vec<Strip>,
+    /// Where the rays of a strip meet the interfaces, one after the other for each step of the code: the coefficients of
+    /// the powers of the share of the strip.
+    guides: Vec<[f64; 4]>,
     last: Option<Knot>,
     /// Why it starts and ends where it does; none at the ends of the source.
     cuts: [Option<Cut>; 2],
@@ -167,8 +172,11 @@ impl<'m> Fan<'m> {
     }
 
     fn start(&self, parameter: f64) -> Result<Ray, Error> {
-        let layer = self.layers.first().copied().unwrap_or(0);
-        self.source.ray(parameter, &self.model.media()[layer])
+        self.source.ray(parameter, self.first_medium())
+    }
+
+    fn first_medium(&self) -> &'m Medium {
+        &self.model.media()[self.layers.first().copied().unwrap_or(0)]
     }
 
     /// The fronts of the last leg as splines of class-3 arcs, one or more for each illuminated stretch: a sliver of rays
@@ -223,6 +231,45 @@ impl<'m> Fan<'m> {
         [start].into_iter().chain(inner).chain([end]).collect()
     }
 
+    /// The parameters of the impacts between two rays at a distance of `width`, as cubics through both with their slopes.
+    fn guides<'a>(
+        &'a self,
+        one: &'a Trace,
+        two: &'a Trace,
+        width: f64,
+    ) -> impl Iterator<Item = [f64; 4]> + 'a {
+        let rate = move |trace: &Trace, step: usize| {
+            let impact = trace.impacts[step];
+            let interface = &self.model.interfaces()[self.code.steps[step].interface];
+            let along = trace.legs[step + 1].point_change.dot(impact.tangent);
+            interface
+                .speed(impact.parameter)
+                .map(|speed| width * along / speed)
+        };
+        (0..self.code.steps.len()).map(move |step| {
+            let start = one.impacts[step].parameter;
+            let rise = two.impacts[step].parameter - start;
+            match (rate(one, step), rate(two, step)) {
+                (Some(p), Some(q)) if p.is_finite() && q.is_finite() => {
+                    [start, p, 3.0 * rise - 2.0 * p - q, p + q - 2.0 * rise]
+                }
+                _ => [start, rise, 0.0, 0.0],
+            }
+        })
+    }
+
+    /// Whether the rays of a strip surely meet nothing on their last leg.
+    pub(crate) fn is_clear(&self, run: &Run, index: usize) -> bool {
+        let left = self.code.steps.last().map(|step| step.interface);
+        let strip = &run.strips[index];
+        let starts = [index, index + 1].map(|ray| run.traces[ray].last().map(|ray| ray.point));
+        let [Some(one), Some(two)] = starts else {
+            return false;
+        };
+        let reach = Reach::new(strip, [one, two], self.slack());
+        self.model.is_clear(strip, &reach, self.last_layer(), left)
+    }
+
     pub(crate) fn runs(&self) -> &[Run] {
         &self.runs
     }
@@ -230,13 +277,21 @@ impl<'m> Fan<'m> {
     /// The ray on its last leg at a parameter in a strip, guided by the impacts of the strip's ends.
     #[inline]
     pub(crate) fn ray_near(&self, run: &Run, index: usize, parameter: f64) -> Option<Landing> {
-        let start = self.start(parameter).ok()?;
-        let (one, two) = (run.traces.get(index)?, run.traces.get(index + 1)?);
-        let share = (parameter - run.parameters[index])
-            / (run.parameters[index + 1] - run.parameters[index]);
+        let (low, high) = (
+            *run.parameters.get(index)?,
+            *run.parameters.get(index + 1)?,
+        );
+        let known = (low, *run.normals.get(index)?);
+        let start = self
+            .source
+            .ray_near(parameter, known, self.first_medium())
+            .ok()?;
+        let share = (parameter - low) / (high - low);
+        let count = self.code.steps.len();
+        let guides = run.guides.get(index * count..(index + 1) * count)?;
         let expected = |step: usize| {
-            let (a, b) = (one.impacts[step].parameter, two.impacts[step].parameter);
-            a + share * (b - a)
+            let [a, b, c, d] = guides[step];
+            a + share * (b + share * (c + share * d))
         };
         let guided = self
             .model
@@ -335,8 +390,16 @@ impl<'f, 'm> Sampler<'f, 'm> {
                 return;
             }
             self.run.strips.push(Strip::between(last, knot));
+            let width = parameter - last.parameter;
+            if let Some(before) = self.run.traces.last() {
+                let guides = self.fan.guides(before, &trace, width);
+                self.run.guides.extend(guides);
+            }
         }
         self.run.parameters.push(*parameter);
+        self.run
+            .normals
+            .extend(trace.legs.first().map(Ray::normal));
         self.run.traces.push(trace);
         self.run.last = Some(*knot);
         self.count += 1;

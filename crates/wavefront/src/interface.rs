@@ -6,6 +6,7 @@ use glam::{DMat2, DVec2};
 use crate::Error;
 use crate::chain::Chain;
 use crate::conic::Conic;
+use crate::strip::{Reach, Strip};
 
 /// Where a ray meets an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -155,8 +156,11 @@ impl Interface {
         guess: f64,
     ) -> Option<Impact> {
         match &self.shape {
+            Shape::Line { point, tangent } => {
+                impact_on_line(*point, *tangent, origin, velocity, after)
+            }
+            Shape::Conic(_) => self.first_impact(origin, velocity, after),
             Shape::Curve(chain) => chain.impact_near(origin, velocity, after, guess),
-            _ => self.first_impact(origin, velocity, after),
         }
     }
 
@@ -173,6 +177,23 @@ impl Interface {
         }
     }
 
+    /// The length of the curve's derivative by the parameter of an impact; none for the shapes without a parameter.
+    pub(crate) fn speed(&self, parameter: f64) -> Option<f64> {
+        match &self.shape {
+            Shape::Curve(chain) => chain.speed(parameter),
+            _ => None,
+        }
+    }
+
+    /// Whether the rays of a strip surely do not meet the interface; where they start on it (`left`), not again.
+    pub(crate) fn is_clear_of(&self, strip: &Strip, reach: &Reach, left: bool) -> bool {
+        match &self.shape {
+            Shape::Line { .. } => left,
+            Shape::Conic(_) => false,
+            Shape::Curve(chain) => chain.is_clear_of(strip, reach, left),
+        }
+    }
+
     /// Calls `found` for every impact later than `after`, in no order.
     #[inline]
     fn visit_impacts(
@@ -184,16 +205,8 @@ impl Interface {
     ) {
         match &self.shape {
             Shape::Line { point, tangent } => {
-                let approach = velocity.perp_dot(*tangent);
-                let time = (*point - origin).perp_dot(*tangent) / approach;
-                if approach != 0.0 && time > after {
-                    found(Impact {
-                        time,
-                        point: origin + time * velocity,
-                        tangent: *tangent,
-                        curvature: 0.0,
-                        parameter: 0.0,
-                    });
+                if let Some(impact) = impact_on_line(*point, *tangent, origin, velocity, after) {
+                    found(impact);
                 }
             }
             Shape::Conic(conic) => conic.visit_impacts(origin, velocity, after, found),
@@ -241,6 +254,25 @@ impl Interface {
                 .collect(),
         }
     }
+}
+
+#[inline]
+fn impact_on_line(
+    point: DVec2,
+    tangent: DVec2,
+    origin: DVec2,
+    velocity: DVec2,
+    after: f64,
+) -> Option<Impact> {
+    let approach = velocity.perp_dot(tangent);
+    let time = (point - origin).perp_dot(tangent) / approach;
+    (approach != 0.0 && time > after).then(|| Impact {
+        time,
+        point: origin + time * velocity,
+        tangent,
+        curvature: 0.0,
+        parameter: 0.0,
+    })
 }
 
 /// The largest distance in y between an interface and a function, looked for at 1,000 places.

@@ -96,6 +96,7 @@ mod medium;
 mod model;
 mod ray;
 mod receivers;
+mod scatter;
 mod snapshot;
 mod source;
 mod space;

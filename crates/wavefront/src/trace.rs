@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::strip::{Reach, Strip};
 use crate::{Code, Error, Impact, Model, Ray};
 
 /// A ray at its source and after each step of a code, with the impacts in between.
@@ -191,14 +192,24 @@ impl Model {
         Some(landing)
     }
 
-    /// Whether a wave on its last leg reaches `point` without meeting a boundary of its layer before.
+    /// Whether a wave on its last leg comes to `point`, which lies before it, without meeting a boundary of its layer.
     #[inline]
-    pub(crate) fn reaches(&self, landing: &Landing, layer: usize, point: DVec2) -> bool {
-        let from = landing.ray.point;
-        let velocity = self.media()[layer].group_velocity(landing.ray.slowness);
-        velocity.dot(point - from) > 0.0
-            && !self
-                .boundaries(layer)
-                .any(|boundary| self.blocks(boundary, from, point, landing.left))
+    pub(crate) fn is_unblocked(&self, landing: &Landing, layer: usize, point: DVec2) -> bool {
+        !self
+            .boundaries(layer)
+            .any(|boundary| self.blocks(boundary, landing.ray.point, point, landing.left))
+    }
+
+    /// Whether all rays of a strip in `layer`, which have left the interface `left`, surely meet no boundary of the layer.
+    pub(crate) fn is_clear(
+        &self,
+        strip: &Strip,
+        reach: &Reach,
+        layer: usize,
+        left: Option<usize>,
+    ) -> bool {
+        self.boundaries(layer).all(|boundary| {
+            self.interfaces()[boundary].is_clear_of(strip, reach, left == Some(boundary))
+        })
     }
 }
