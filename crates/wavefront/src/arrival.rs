@@ -147,7 +147,7 @@ impl Fan<'_> {
     }
 
     /// Finds the ray through the point inside a bracket, and reports it if it gets there.
-    #[inline]
+    #[inline(always)]
     fn refine(
         &self,
         run: &Run,

@@ -22,8 +22,9 @@ pub(crate) struct Chain {
 #[derive(Clone, Debug, PartialEq)]
 struct Piece {
     curve: BezierCurve<DVec2>,
-    /// The coefficients of the powers of the parameter of a polynomial piece, for quick values; none for a rational one.
-    powers: Vec<DVec2>,
+    /// The coefficients of the powers of the parameter of a polynomial piece and their number, for quick values; none for a
+    /// rational one.
+    powers: ([DVec2; MOST_POWERS], usize),
 }
 
 /// A box around pieces; infinite if a weight is not positive.
@@ -316,18 +317,20 @@ impl Piece {
     fn new(curve: BezierCurve<DVec2>) -> Self {
         let control = curve.control();
         let polynomial = control.len() <= MOST_POWERS && control.iter().all(|h| h.weight == 1.0);
-        let mut powers = Vec::new();
+        let mut powers = ([DVec2::ZERO; MOST_POWERS], 0);
         if polynomial {
             // The k-th power has the coefficient C(n, k) times the k-th difference at the start.
             let mut differences: Vec<DVec2> = control.iter().map(|h| h.weighted).collect();
-            for k in 0..control.len() {
-                powers
-                    .push(bezier_mass::bernstein::binomial(control.len() - 1, k) * differences[0]);
+            for (k, power) in powers.0.iter_mut().enumerate().take(control.len()) {
+                *power = bezier_mass::bernstein::binomial(control.len() - 1, k) * differences[0];
                 differences = differences
                     .windows(2)
                     .map(|pair| pair[1] - pair[0])
                     .collect();
             }
+        }
+        if polynomial {
+            powers.1 = control.len();
         }
         Self { curve, powers }
     }
@@ -355,12 +358,13 @@ impl Piece {
     /// Position, first and second derivative.
     #[inline]
     fn jet(&self, t: f64) -> Option<[DVec2; 3]> {
-        if self.powers.is_empty() {
+        let (powers, count) = &self.powers;
+        if *count == 0 {
             let jet = self.curve.jet(t);
             return Some([jet.position()?, jet.velocity()?, jet.acceleration()?]);
         }
         let (mut value, mut slope, mut half_bend) = (DVec2::ZERO, DVec2::ZERO, DVec2::ZERO);
-        for &power in self.powers.iter().rev() {
+        for &power in powers.get(..*count)?.iter().rev() {
             half_bend = half_bend * t + slope;
             slope = slope * t + value;
             value = value * t + power;

@@ -275,12 +275,9 @@ impl<'m> Fan<'m> {
     }
 
     /// The ray on its last leg at a parameter in a strip, guided by the impacts of the strip's ends.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn ray_near(&self, run: &Run, index: usize, parameter: f64) -> Option<Landing> {
-        let (low, high) = (
-            *run.parameters.get(index)?,
-            *run.parameters.get(index + 1)?,
-        );
+        let (low, high) = (*run.parameters.get(index)?, *run.parameters.get(index + 1)?);
         let known = (low, *run.normals.get(index)?);
         let start = self
             .source
@@ -397,9 +394,7 @@ impl<'f, 'm> Sampler<'f, 'm> {
             }
         }
         self.run.parameters.push(*parameter);
-        self.run
-            .normals
-            .extend(trace.legs.first().map(Ray::normal));
+        self.run.normals.extend(trace.legs.first().map(Ray::normal));
         self.run.traces.push(trace);
         self.run.last = Some(*knot);
         self.count += 1;

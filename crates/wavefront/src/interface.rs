@@ -146,7 +146,7 @@ impl Interface {
     }
 
     /// The impact near a known place, by Newton's method from there; exact for the shapes that are solved in closed form.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn impact_near(
         &self,

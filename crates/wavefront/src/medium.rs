@@ -119,7 +119,7 @@ impl Medium {
     }
 
     /// The speed of a front in the direction of its unit normal: the support of the indicatrix.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn front_speed(&self, normal: DVec2) -> f64 {
         match &self.kind {
@@ -130,14 +130,14 @@ impl Medium {
     }
 
     /// The slowness of a front with this unit normal.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn slowness(&self, normal: DVec2) -> DVec2 {
         normal / self.front_speed(normal)
     }
 
     /// The velocity of a ray with this slowness.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn group_velocity(&self, slowness: DVec2) -> DVec2 {
         match &self.kind {
@@ -149,7 +149,7 @@ impl Medium {
     }
 
     /// The derivative of the group velocity in the direction `change` of the slowness, which is tangent to the slowness curve.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn group_velocity_change(&self, slowness: DVec2, change: DVec2) -> DVec2 {
         match &self.kind {
@@ -212,7 +212,7 @@ impl Medium {
     ///
     /// # Errors
     /// [`Error::TotalReflection`] (with the place `at`) if the component is too large.
-    #[inline]
+    #[inline(always)]
     pub fn slowness_behind(
         &self,
         tangential: f64,

@@ -41,7 +41,7 @@ impl Cell {
 }
 
 impl Scatter {
-    /// Points that are not finite are left out; smallest cells hold about half of `few` points.
+    /// Points that are not finite are left out; the smallest cells hold no more than `few` points on average.
     pub(crate) fn new(points: &[DVec2], few: usize) -> Self {
         let finite = || {
             let numbered = points.iter().zip(0_u32..);
@@ -52,7 +52,7 @@ impl Scatter {
             |(low, high), (point, _)| (low.min(*point), high.max(*point)),
         );
         let mut level = 0;
-        while level < MOST_LEVELS && (few << (2 * level)) < 2 * points.len() {
+        while level < MOST_LEVELS && (few << (2 * level)) < points.len() {
             level += 1;
         }
         let side = f64::from(1_u32 << level);
@@ -185,7 +185,7 @@ mod tests {
                 }
             }
         }
-        assert_eq!((seen, smallest), (1000, 256));
+        assert_eq!((seen, smallest), (1000, 64));
     }
 
     #[test]

@@ -134,7 +134,7 @@ impl Source {
     }
 
     /// As [`Source::ray`], from the front's normal at a nearby parameter `known`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn ray_near(
         &self,
         t: f64,
@@ -191,9 +191,8 @@ fn turn(angle: f64) -> DVec2 {
     let cosine = 1.0
         + x * (-1.0 / 2.0
             + x * (1.0 / 24.0 + x * (-1.0 / 720.0 + x * (1.0 / 40_320.0 - x / 3_628_800.0))));
-    let sine = angle
-        * (1.0
-            + x * (-1.0 / 6.0 + x * (1.0 / 120.0 + x * (-1.0 / 5040.0 + x / 362_880.0))));
+    let sine =
+        angle * (1.0 + x * (-1.0 / 6.0 + x * (1.0 / 120.0 + x * (-1.0 / 5040.0 + x / 362_880.0))));
     DVec2::new(cosine, sine)
 }
 

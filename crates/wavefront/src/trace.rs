@@ -158,7 +158,7 @@ impl Model {
 
     /// A ray near traced ones, by Newton's method on each interface from the expected parameters of the impacts: quick, and
     /// none where the neighbours are no guide (a grazing ray, total reflection).
-    #[inline]
+    #[inline(always)]
     pub(crate) fn trace_near(
         &self,
         start: Ray,
