@@ -8,11 +8,6 @@ use crate::{Error, Impact};
 
 /// Bézier curves one after the other. The parameter is the number of the piece plus that on the piece.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(try_from = "Vec<BezierCurve<DVec2>>", into = "Vec<BezierCurve<DVec2>>")
-)]
 pub(crate) struct Chain {
     pieces: Vec<Piece>,
     /// A heap: node k holds its children 2k and 2k + 1, the leaves are the pieces and, behind them, empty boxes.
@@ -83,6 +78,11 @@ impl Chain {
             boxes[node] = boxes[2 * node].union(boxes[2 * node + 1]);
         }
         Ok(Self { pieces, boxes })
+    }
+
+    #[cfg(feature = "serde")]
+    pub(crate) fn into_curves(self) -> Vec<BezierCurve<DVec2>> {
+        self.pieces.into_iter().map(|piece| piece.curve).collect()
     }
 
     pub(crate) fn piece_count(&self) -> usize {
@@ -485,19 +485,5 @@ impl Bounds {
     #[inline]
     fn overlaps(&self, from: DVec2, to: DVec2) -> bool {
         self.low.cmple(from.max(to)).all() && self.high.cmpge(from.min(to)).all()
-    }
-}
-
-impl TryFrom<Vec<BezierCurve<DVec2>>> for Chain {
-    type Error = Error;
-
-    fn try_from(curves: Vec<BezierCurve<DVec2>>) -> Result<Self, Error> {
-        Self::new(curves)
-    }
-}
-
-impl From<Chain> for Vec<BezierCurve<DVec2>> {
-    fn from(chain: Chain) -> Self {
-        chain.pieces.into_iter().map(|piece| piece.curve).collect()
     }
 }

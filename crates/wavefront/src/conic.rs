@@ -6,7 +6,6 @@ use crate::{Error, Impact};
 
 /// `(x - centre)ᵀ form (x - centre) + 2 linear (x - centre) + constant = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Conic {
     centre: DVec2,
     form: DMat2,
@@ -24,7 +23,7 @@ impl Conic {
         linear: DVec2,
         constant: f64,
     ) -> Result<Self, Error> {
-        if !(form.is_finite() && linear.is_finite() && constant.is_finite()) {
+        if !(centre.is_finite() && form.is_finite() && linear.is_finite() && constant.is_finite()) {
             return Err(Error::NonFinite {
                 what: "a coefficient of a conic",
             });
@@ -99,4 +98,16 @@ fn quadratic_roots(a: f64, b: f64, c: f64) -> [Option<f64>; 2] {
         return [Some(0.0), None];
     }
     [Some(larger / a), (discriminant > 0.0).then(|| c / larger)]
+}
+
+#[cfg(feature = "serde")]
+impl From<Conic> for crate::stored::StoredInterface {
+    fn from(conic: Conic) -> Self {
+        Self::Conic {
+            centre: conic.centre,
+            form: conic.form,
+            linear: conic.linear,
+            constant: conic.constant,
+        }
+    }
 }

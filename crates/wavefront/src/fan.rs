@@ -207,7 +207,10 @@ impl<'m> Fan<'m> {
                 let index = run.strip_at(parameter);
                 self.ray_near(run, index, parameter)
                     .map(|landing| landing.ray)
-                    .ok_or(Error::Miss { from: DVec2::NAN })
+                    .ok_or_else(|| match self.start(parameter) {
+                        Ok(ray) => Error::Miss { from: ray.point },
+                        Err(error) => error,
+                    })
             };
             fronts.extend(Front::fit_stretch(
                 medium,

@@ -26,13 +26,19 @@ pub struct Impact {
 
 /// A curve at which a wave is reflected and transmitted.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "crate::stored::StoredInterface",
+        into = "crate::stored::StoredInterface"
+    )
+)]
 pub struct Interface {
     shape: Shape,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 enum Shape {
     Line { point: DVec2, tangent: DVec2 },
     Conic(Conic),
@@ -48,9 +54,14 @@ impl Interface {
         if !(point.is_finite() && direction.is_finite()) {
             return Err(Error::NonFinite { what: "a line" });
         }
-        let tangent = direction.try_normalize().ok_or(Error::ZeroDirection {
-            what: "the direction of a line",
-        })?;
+        // A unit vector stays as it is: a line that is written and read is the same.
+        let tangent = if (direction.length_squared() - 1.0).abs() <= 4.0 * f64::EPSILON {
+            direction
+        } else {
+            direction.try_normalize().ok_or(Error::ZeroDirection {
+                what: "the direction of a line",
+            })?
+        };
         Ok(Self {
             shape: Shape::Line { point, tangent },
         })
@@ -100,7 +111,7 @@ impl Interface {
         Self::conic_about(DVec2::ZERO, form, 0.5 * DVec2::new(d, e), f)
     }
 
-    fn conic_about(
+    pub(crate) fn conic_about(
         centre: DVec2,
         form: DMat2,
         linear: DVec2,
@@ -252,6 +263,22 @@ impl Interface {
             Shape::Curve(chain) => (0..=count)
                 .filter_map(|i| chain.point(chain.piece_count() as f64 * share(i)))
                 .collect(),
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<Interface> for crate::stored::StoredInterface {
+    fn from(interface: Interface) -> Self {
+        match interface.shape {
+            Shape::Line { point, tangent } => Self::Line {
+                point,
+                direction: tangent,
+            },
+            Shape::Conic(conic) => conic.into(),
+            Shape::Curve(chain) => Self::Curve {
+                pieces: chain.into_curves(),
+            },
         }
     }
 }

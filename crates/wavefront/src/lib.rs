@@ -100,6 +100,8 @@ mod scatter;
 mod snapshot;
 mod source;
 mod space;
+#[cfg(feature = "serde")]
+mod stored;
 mod strip;
 mod trace;
 

@@ -20,12 +20,18 @@ use crate::Error;
 /// with the outward normal N, and `<s, V> = 1`.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "crate::stored::StoredMedium",
+        into = "crate::stored::StoredMedium"
+    )
+)]
 pub struct Medium {
     kind: Kind,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 enum Kind {
     Isotropic {
         speed: f64,
@@ -267,6 +273,21 @@ impl Medium {
                 }
                 Err(none)
             }
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<Medium> for crate::stored::StoredMedium {
+    fn from(medium: Medium) -> Self {
+        match medium.kind {
+            Kind::Isotropic { speed } => Self::Isotropic { speed },
+            Kind::Elliptical {
+                semi_axes, angle, ..
+            } => Self::Elliptical { semi_axes, angle },
+            Kind::Rational(indicatrix) => Self::Rational {
+                arcs: indicatrix.arcs().to_vec(),
+            },
         }
     }
 }

@@ -9,6 +9,14 @@ use crate::{Error, Front, Medium, Ray};
 
 /// The start of a wave at time zero: a family of rays over a parameter in `[0, 1]`.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "crate::stored::StoredSource",
+        into = "crate::stored::StoredSource"
+    )
+)]
 pub enum Source {
     /// A point, with the range of normal angles (radians) that it radiates into.
     Point {

@@ -15,6 +15,13 @@ use crate::Error;
 /// parametrisation of the normals wherever the ellipsoid is a sphere, and dual-quadratic before the offset otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "crate::stored::StoredSurface",
+        into = "crate::stored::StoredSurface"
+    )
+)]
 pub struct DualSurface {
     centre: DVec3,
     half_axes: DMat3,
@@ -34,6 +41,13 @@ pub struct SpacePoint {
 /// A mirror in space: `xᵀ form x + 2 <linear, x> + constant = 0`, a plane if the form vanishes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "crate::stored::StoredMirror",
+        into = "crate::stored::StoredMirror"
+    )
+)]
 pub struct Mirror {
     form: DMat3,
     linear: DVec3,
@@ -43,6 +57,13 @@ pub struct Mirror {
 /// A front as a grid of rays: points and normals at time zero, which may lie behind their mirror.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "crate::stored::StoredGrid",
+        into = "crate::stored::StoredGrid"
+    )
+)]
 pub struct SampledSurface {
     columns: usize,
     points: Vec<SpacePoint>,
@@ -233,6 +254,23 @@ impl SampledSurface {
         })
     }
 
+    /// Rays that are given row by row.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for less than two rows or columns, or an incomplete row.
+    pub fn from_rays(columns: usize, rays: Vec<SpacePoint>) -> Result<Self, Error> {
+        if columns < 2 || rays.len() < 2 * columns || rays.len() % columns != 0 {
+            return Err(Error::OutOfRange {
+                what: "the number of rows and columns",
+                value: rays.len() as f64 / columns as f64,
+            });
+        }
+        Ok(Self {
+            columns,
+            points: rays,
+        })
+    }
+
     /// The rays of a patch along its normals.
     ///
     /// # Errors
@@ -322,6 +360,28 @@ impl SampledSurface {
             .zip(self.points.iter().skip(self.columns))
             .map(|(a, b)| across(a, b));
         along.chain(between).fold(0.0, f64::max)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<DualSurface> for crate::stored::StoredSurface {
+    fn from(surface: DualSurface) -> Self {
+        Self {
+            centre: surface.centre,
+            half_axes: surface.half_axes,
+            distance: surface.distance,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<Mirror> for crate::stored::StoredMirror {
+    fn from(mirror: Mirror) -> Self {
+        Self {
+            form: mirror.form,
+            linear: mirror.linear,
+            constant: mirror.constant,
+        }
     }
 }
 

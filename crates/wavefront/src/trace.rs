@@ -7,6 +7,7 @@ use crate::{Code, Error, Impact, Model, Ray};
 
 /// A ray at its source and after each step of a code, with the impacts in between.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Trace {
     /// The ray as it starts each leg; one more than the steps.
     pub legs: Vec<Ray>,
