@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::sample::sample;
 use crate::strip::{Knot, Reach, Strip};
 use crate::trace::{Failure, Landing};
 use crate::{Code, Cut, Error, Front, FrontTolerance, Medium, Model, Ray, Source, Trace};
@@ -22,6 +23,7 @@ pub struct Fan<'m> {
     code: Code,
     layers: Vec<usize>,
     runs: Vec<Run>,
+    unsearched: Vec<[f64; 2]>,
 }
 
 /// A stretch of neighbouring rays.
@@ -30,15 +32,15 @@ pub(crate) struct Run {
     pub(crate) parameters: Vec<f64>,
     pub(crate) traces: Vec<Trace>,
     /// The front's normals at the source.
-    normals: Vec<DVec2>,
+    pub(crate) normals: Vec<DVec2>,
     /// Between each two rays.
     pub(crate) strips: Vec<Strip>,
     /// Where the rays of a strip meet the interfaces, one after the other for each step of the code: the coefficients of
     /// the powers of the share of the strip.
-    guides: Vec<[f64; 4]>,
-    last: Option<Knot>,
+    pub(crate) guides: Vec<[f64; 4]>,
+    pub(crate) last: Option<Knot>,
     /// Why it starts and ends where it does; none at the ends of the source.
-    cuts: [Option<Cut>; 2],
+    pub(crate) cuts: [Option<Cut>; 2],
 }
 
 /// How densely a fan is sampled.
@@ -62,18 +64,9 @@ impl Default for FanOptions {
 }
 
 /// A gap in a fan is bracketed to this share of the source's parameter.
-const BOUNDARY: f64 = 1e-13;
-/// Between two rays that fail in different ways a window with rays is looked for by this many halvings.
-const WINDOW_SEARCH: u32 = 8;
-/// And between two that fail alike by this many.
-const WINDOW_GUESS: u32 = 2;
-/// A fan never holds more rays than this.
-const MOST_RAYS: usize = 1 << 16;
+pub(crate) const BOUNDARY: f64 = 1e-13;
 /// Fronts keep this share of a run off a boundary: there, where rays graze, the very boundary ray has no neighbours.
 const FRONT_INSET: f64 = 1e-9;
-
-/// A ray of the source that was tried: its knot, or what stopped it.
-type Trial = (f64, Result<Knot, Failure>);
 
 impl<'m> Fan<'m> {
     /// Traces the rays.
@@ -111,8 +104,9 @@ impl<'m> Fan<'m> {
             code,
             layers,
             runs: Vec::new(),
+            unsearched: Vec::new(),
         };
-        fan.runs = Sampler::new(&fan, options).sample(options.rays);
+        (fan.runs, fan.unsearched) = sample(&fan, options);
         Ok(fan)
     }
 
@@ -145,6 +139,17 @@ impl<'m> Fan<'m> {
         self.runs.iter().flat_map(|run| &run.cuts).flatten()
     }
 
+    /// The stretches of the source's parameter without rays in which a window with rays may have been missed; elsewhere every
+    /// window wider than 2^-20 of the source's parameter has been found.
+    ///
+    /// Between two rays that fail, enclosures of all rays in between tell that there is none; where they do not, they are
+    /// halved, until that costs too much: those stretches are listed. Curved sources and rational indicatrices have no
+    /// enclosures, and are searched at some places only.
+    #[must_use]
+    pub fn unsearched(&self) -> &[[f64; 2]] {
+        &self.unsearched
+    }
+
     /// The number of rays in the table.
     #[must_use]
     pub fn ray_count(&self) -> usize {
@@ -164,7 +169,7 @@ impl<'m> Fan<'m> {
         self.attempt(parameter).map_err(|failure| failure.error)
     }
 
-    fn attempt(&self, parameter: f64) -> Result<Trace, Failure> {
+    pub(crate) fn attempt(&self, parameter: f64) -> Result<Trace, Failure> {
         let start = self
             .start(parameter)
             .map_err(|error| Failure { step: 0, error })?;
@@ -175,7 +180,16 @@ impl<'m> Fan<'m> {
         self.source.ray(parameter, self.first_medium())
     }
 
-    fn first_medium(&self) -> &'m Medium {
+    pub(crate) fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// The media of the legs.
+    pub(crate) fn layers(&self) -> &[usize] {
+        &self.layers
+    }
+
+    pub(crate) fn first_medium(&self) -> &'m Medium {
         &self.model.media()[self.layers.first().copied().unwrap_or(0)]
     }
 
@@ -235,7 +249,7 @@ impl<'m> Fan<'m> {
     }
 
     /// The parameters of the impacts between two rays at a distance of `width`, as cubics through both with their slopes.
-    fn guides<'a>(
+    pub(crate) fn guides<'a>(
         &'a self,
         one: &'a Trace,
         two: &'a Trace,
@@ -258,6 +272,14 @@ impl<'m> Fan<'m> {
                 }
                 _ => [start, rise, 0.0, 0.0],
             }
+        })
+    }
+
+    /// Whether the interfaces turn between the impacts of two rays as they do there: no notch or bump lies in between.
+    pub(crate) fn is_plain_between(&self, one: &Trace, two: &Trace) -> bool {
+        let steps = self.code.steps.iter().zip(&one.impacts).zip(&two.impacts);
+        steps.into_iter().all(|((step, from), to)| {
+            self.model.interfaces()[step.interface].is_plain_between(from, to)
         })
     }
 
@@ -320,186 +342,6 @@ impl Run {
         above
             .saturating_sub(1)
             .min(self.strips.len().saturating_sub(1))
-    }
-}
-
-/// Fills the runs of a fan, ray by ray.
-struct Sampler<'f, 'm> {
-    fan: &'f Fan<'m>,
-    /// Lines are compared inside the circle around the model's box.
-    centre: DVec2,
-    radius: f64,
-    tolerance: f64,
-    run: Run,
-    done: Vec<Run>,
-    count: usize,
-}
-
-impl<'f, 'm> Sampler<'f, 'm> {
-    fn new(fan: &'f Fan<'m>, options: FanOptions) -> Self {
-        let [low, high] = fan.model.corners();
-        Self {
-            fan,
-            centre: 0.5 * (low + high),
-            radius: 0.5 * fan.model.size(),
-            tolerance: options.accuracy * fan.model.size(),
-            run: Run::default(),
-            done: Vec::new(),
-            count: 0,
-        }
-    }
-
-    fn sample(mut self, rays: usize) -> Vec<Run> {
-        let mut parameters: Vec<f64> = (0..=rays).map(|i| i as f64 / rays as f64).collect();
-        // A joint of the source is met from both sides.
-        for joint in self.fan.source.breaks() {
-            parameters.extend([joint - BOUNDARY, joint]);
-        }
-        parameters.retain(|parameter| *parameter >= 0.0);
-        parameters.sort_by(f64::total_cmp);
-        parameters.dedup();
-        let mut previous: Option<Trial> = None;
-        for parameter in parameters {
-            let (trial, trace) = self.attempt(parameter);
-            if let Some(previous) = previous {
-                self.fill(&previous, &trial, 0);
-            }
-            self.push(&trial, trace);
-            previous = Some(trial);
-        }
-        self.finish(None);
-        self.done
-    }
-
-    fn attempt(&self, parameter: f64) -> (Trial, Trace) {
-        match self.fan.attempt(parameter) {
-            Ok(trace) => {
-                let medium = &self.fan.model.media()[self.fan.last_layer()];
-                let ray = trace.legs[trace.legs.len() - 1];
-                let knot = Knot::new(parameter, &ray, medium);
-                ((parameter, Ok(knot)), trace)
-            }
-            Err(failure) => ((parameter, Err(failure)), Trace::default()),
-        }
-    }
-
-    fn push(&mut self, trial: &Trial, trace: Trace) {
-        let (parameter, Ok(knot)) = trial else { return };
-        if let Some(last) = &self.run.last {
-            if last.parameter >= *parameter {
-                return;
-            }
-            self.run.strips.push(Strip::between(last, knot));
-            let width = parameter - last.parameter;
-            if let Some(before) = self.run.traces.last() {
-                let guides = self.fan.guides(before, &trace, width);
-                self.run.guides.extend(guides);
-            }
-        }
-        self.run.parameters.push(*parameter);
-        self.run.normals.extend(trace.legs.first().map(Ray::normal));
-        self.run.traces.push(trace);
-        self.run.last = Some(*knot);
-        self.count += 1;
-    }
-
-    /// Ends the run, at the end of the source or with a reason.
-    fn finish(&mut self, reason: Option<Error>) {
-        let mut run = std::mem::take(&mut self.run);
-        run.cuts[1] = reason.and_then(|reason| Cut::new(&run, reason, true));
-        if run.parameters.len() > 1 {
-            self.done.push(run);
-        }
-    }
-
-    /// Adds what is between two rays that were tried.
-    fn fill(&mut self, one: &Trial, two: &Trial, depth: u32) {
-        match (&one.1, &two.1) {
-            (Ok(a), Ok(b)) => self.join(a, b),
-            (Ok(a), Err(failure)) => {
-                let (last, trace, error) = self.boundary(a, two.0, failure);
-                if let (_, Ok(b)) = &last {
-                    self.join(a, b);
-                }
-                self.push(&last, trace);
-                self.finish(Some(error));
-            }
-            (Err(failure), Ok(b)) => {
-                let (first, trace, error) = self.boundary(b, one.0, failure);
-                self.push(&first, trace);
-                self.run.cuts[0] = Cut::new(&self.run, error, false);
-                if let (_, Ok(a)) = &first {
-                    self.join(a, b);
-                }
-            }
-            (Err(a), Err(b)) => {
-                let alike = a.step == b.step
-                    && std::mem::discriminant(&a.error) == std::mem::discriminant(&b.error);
-                if depth < if alike { WINDOW_GUESS } else { WINDOW_SEARCH } {
-                    self.halve(one, two, depth);
-                }
-            }
-        }
-    }
-
-    fn halve(&mut self, one: &Trial, two: &Trial, depth: u32) {
-        let (middle, trace) = self.attempt(0.5 * (one.0 + two.0));
-        self.fill(one, &middle, depth + 1);
-        self.push(&middle, trace);
-        self.fill(&middle, two, depth + 1);
-    }
-
-    /// Adds rays between two until their strip is where the rays are; cuts the run where it never is: a ray grazes an
-    /// interface, and the next one meets it farther on.
-    fn join(&mut self, a: &Knot, b: &Knot) {
-        if self.count >= MOST_RAYS {
-            return;
-        }
-        if b.parameter - a.parameter <= 2.0 * BOUNDARY {
-            if a.distance(b, self.centre, self.radius) > self.tolerance {
-                let torn = || Error::Torn {
-                    parameter: a.parameter,
-                };
-                self.finish(Some(torn()));
-                let (again, trace) = self.attempt(b.parameter);
-                self.push(&again, trace);
-                self.run.cuts[0] = Cut::new(&self.run, torn(), false);
-            }
-            return;
-        }
-        let (middle, trace) = self.attempt(0.5 * (a.parameter + b.parameter));
-        match &middle.1 {
-            Ok(knot)
-                if knot.misfit(&Strip::between(a, b), self.centre, self.radius)
-                    <= self.tolerance =>
-            {
-                self.push(&middle, trace);
-            }
-            Ok(knot) => {
-                self.join(a, knot);
-                self.push(&middle, trace);
-                self.join(knot, b);
-            }
-            Err(_) => {
-                self.fill(&(a.parameter, Ok(*a)), &middle, 0);
-                self.fill(&middle, &(b.parameter, Ok(*b)), 0);
-            }
-        }
-    }
-
-    /// The last ray that exists between one that does and a parameter where none does, and what stopped the next one.
-    fn boundary(&self, known: &Knot, mut bad: f64, failure: &Failure) -> (Trial, Trace, Error) {
-        let (mut good, mut trace) = self.attempt(known.parameter);
-        let mut reason = failure.error.clone();
-        while (bad - good.0).abs() > BOUNDARY {
-            let middle = 0.5 * (good.0 + bad);
-            match self.attempt(middle) {
-                (found, its) if found.1.is_ok() => (good, trace) = (found, its),
-                ((_, Err(failure)), _) => (bad, reason) = (middle, failure.error),
-                _ => break,
-            }
-        }
-        (good, trace, reason)
     }
 }
 

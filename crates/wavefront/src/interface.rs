@@ -4,6 +4,7 @@ use bezier_mass::BezierCurve;
 use glam::{DMat2, DVec2};
 
 use crate::Error;
+use crate::beam::{Part, Wedge};
 use crate::chain::Chain;
 use crate::conic::Conic;
 use crate::strip::{Reach, Strip};
@@ -23,6 +24,9 @@ pub struct Impact {
     /// The place on the interface: piece number plus parameter for a curve, 0 for the other shapes.
     pub parameter: f64,
 }
+
+/// A line is followed beyond a box by this share of its size, against rounding.
+const CLIP_MARGIN: f64 = 1e-8;
 
 /// A curve at which a wave is reflected and transmitted.
 #[derive(Clone, Debug, PartialEq)]
@@ -205,6 +209,41 @@ impl Interface {
         }
     }
 
+    /// Whether the tangents between two impacts are between the tangents there, but for a little.
+    pub(crate) fn is_plain_between(&self, one: &Impact, two: &Impact) -> bool {
+        match &self.shape {
+            Shape::Curve(chain) => chain.is_plain_between(one, two),
+            _ => true,
+        }
+    }
+
+    /// Calls `found` with the parts of the interface in a box that rays of a wedge may meet, or with none where that is not
+    /// known.
+    pub(crate) fn visit_parts(
+        &self,
+        wedge: &Wedge,
+        [low, high]: [DVec2; 2],
+        found: &mut dyn FnMut(Option<Part>),
+    ) {
+        match &self.shape {
+            Shape::Line { point, tangent } => {
+                // One tangent: the box in which the line runs is all that a further leg needs.
+                let Some((start, end)) = clipped(*point, *tangent, low, high) else {
+                    return;
+                };
+                let part = Part {
+                    low: start.min(end),
+                    high: start.max(end),
+                    tangent: tangent.to_angle(),
+                    spread: 0.0,
+                };
+                part.narrowed(start, end, wedge, found);
+            }
+            Shape::Conic(conic) => conic.visit_parts(wedge, [low, high], found),
+            Shape::Curve(chain) => chain.visit_parts(wedge, [low, high], found),
+        }
+    }
+
     /// Calls `found` for every impact later than `after`, in no order.
     #[inline]
     fn visit_impacts(
@@ -281,6 +320,29 @@ impl From<Interface> for crate::stored::StoredInterface {
             },
         }
     }
+}
+
+/// The ends of a line in a box, if it passes through; to a margin beyond it.
+fn clipped(point: DVec2, tangent: DVec2, low: DVec2, high: DVec2) -> Option<(DVec2, DVec2)> {
+    let margin = CLIP_MARGIN * (high - low);
+    let (one, two) = (
+        (low - margin - point) / tangent,
+        (high + margin - point) / tangent,
+    );
+    // Along an axis one of the coordinates bounds nothing, or is outside.
+    let (near, far) = (one.min(two), one.max(two));
+    let inside = |near: f64, far: f64| {
+        if near.is_nan() || far.is_nan() {
+            None
+        } else {
+            Some((near, far))
+        }
+    };
+    let (x, y) = (inside(near.x, far.x), inside(near.y, far.y));
+    let infinite = (f64::NEG_INFINITY, f64::INFINITY);
+    let (x, y) = (x.unwrap_or(infinite), y.unwrap_or(infinite));
+    let (from, to) = (x.0.max(y.0), x.1.min(y.1));
+    (from < to).then(|| (point + from * tangent, point + to * tangent))
 }
 
 #[inline]

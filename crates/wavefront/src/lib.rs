@@ -81,6 +81,7 @@
 struct ReadmeDoctests;
 
 mod arrival;
+mod beam;
 mod chain;
 mod code;
 mod conic;
@@ -94,8 +95,10 @@ mod interface;
 mod interpolate;
 mod medium;
 mod model;
+mod piece;
 mod ray;
 mod receivers;
+mod sample;
 mod scatter;
 mod snapshot;
 mod source;

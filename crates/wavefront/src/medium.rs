@@ -195,6 +195,33 @@ impl Medium {
         }
     }
 
+    /// The largest length of a slowness, and of its derivative by the angle of the normal; none for a rational indicatrix.
+    pub(crate) fn slowness_bounds(&self) -> Option<[f64; 2]> {
+        let [longer, shorter] = self.sorted_axes()?;
+        // s = N / P with P² = a² cos² + b² sin² in the axes: |P'| is at most (a² - b²) / (2 P).
+        let change = (longer - shorter) * (longer + shorter) / (2.0 * shorter * shorter * shorter);
+        Some([shorter.recip(), shorter.recip() + change])
+    }
+
+    /// By how much more the normal of a ray can turn than its direction.
+    pub(crate) fn stretch(&self) -> f64 {
+        self.sorted_axes()
+            .map_or(f64::INFINITY, |[longer, shorter]| {
+                (longer / shorter).powi(2)
+            })
+    }
+
+    /// The semi-axes of the indicatrix, the longer one first.
+    fn sorted_axes(&self) -> Option<[f64; 2]> {
+        match self.kind {
+            Kind::Isotropic { speed } => Some([speed, speed]),
+            Kind::Elliptical {
+                semi_axes: [a, b], ..
+            } => Some([a.max(b), a.min(b)]),
+            Kind::Rational(_) => None,
+        }
+    }
+
     /// The travel time along a vector: its norm.
     ///
     /// # Errors

@@ -114,6 +114,11 @@ impl Knot {
         difference.value(centre).abs() + radius * difference.side.length()
     }
 
+    /// How quickly the line moves inside a circle, by the parameter.
+    pub(crate) fn rate(&self, centre: DVec2, radius: f64) -> f64 {
+        self.slope.value(centre).abs() + radius * self.slope.side.length()
+    }
+
     /// How far apart two lines are inside a circle.
     pub(crate) fn distance(&self, other: &Self, centre: DVec2, radius: f64) -> f64 {
         let difference = self.form.plus(&other.form, -1.0);
