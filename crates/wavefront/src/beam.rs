@@ -16,8 +16,10 @@ use crate::{Fan, Medium, Mode, Source};
 const ROUNDING: f64 = 1e-12;
 /// Wider beams are not followed: halves are.
 const WIDEST: f64 = 1.5;
+/// The cosine of the angle between the outer rays is at least this.
+const NARROW: f64 = 0.07;
 /// So many parts are followed for one interval before it counts as not excluded.
-const MOST_PARTS: u32 = 400;
+const MOST_PARTS: u32 = 100;
 
 /// Rays that start in a box with normals from an angle on (radians, counter-clockwise).
 #[derive(Clone, Copy, Debug)]
@@ -84,11 +86,10 @@ impl Beam {
             medium.group_velocity(slowness).normalize()
         };
         let (first, last) = (direction(self.angle), direction(self.angle + self.turn));
-        let turn = first.angle_to(last);
-        if self.turn > WIDEST || !(-ROUNDING..WIDEST).contains(&turn) {
+        if self.turn > WIDEST || first.dot(last) < NARROW || first.perp_dot(last) < -ROUNDING {
             return None;
         }
-        let margin = DVec2::from_angle(2.0 * ROUNDING);
+        let margin = DVec2::new(1.0, 2.0 * ROUNDING);
         Some(Wedge {
             centre: 0.5 * (self.low + self.high),
             half: 0.5 * (self.high - self.low),

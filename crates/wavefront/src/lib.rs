@@ -122,5 +122,7 @@ pub use model::Model;
 pub use ray::{Mode, Ray};
 pub use receivers::{first_arrival, section, travel_time_table};
 pub use source::Source;
-pub use space::{DualSurface, Mirror, SampledSurface, SpacePoint};
+pub use space::{
+    DualSurface, FrontPatches, Mirror, Omission, PatchOptions, SampledSurface, SpacePoint,
+};
 pub use trace::Trace;
