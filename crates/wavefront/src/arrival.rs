@@ -40,6 +40,8 @@ const SMALL_STEP: f64 = 1e-3;
 const THROUGH: f64 = 1e-12;
 /// A step of Newton's method on a strip's cubic this small (a share of the strip) leaves less than the exact ray needs.
 const GOOD_START: f64 = 1e-2;
+/// A receiver as close to the start of a ray's last leg as this share of the model's size is at it.
+const AT_START: f64 = 1e-9;
 /// Newton's method in a bracket, with a halving where it leaves or stalls.
 const STEPS: usize = 60;
 
@@ -167,13 +169,17 @@ impl Fan<'_> {
             let near = passage.distance.abs() <= NEAR * size && passage.step.abs() <= small;
             let stuck = bracket.high - bracket.low <= f64::EPSILON;
             if near || stuck || passage.distance.abs() <= THROUGH * size {
-                let reaches = passage.travel > 0.0
-                    && (bracket.is_clear
-                        || self
-                            .model()
-                            .is_unblocked(&landing, self.last_layer(), point));
+                let step = if near { passage.step } else { 0.0 };
+                // On the interface that the wave leaves it arrives as it sets out.
+                let at_start = landing.left.is_some()
+                    && passage.way_after(&landing.ray, step).abs() <= AT_START * size;
+                let reaches = at_start
+                    || passage.travel > 0.0
+                        && (bracket.is_clear
+                            || self
+                                .model()
+                                .is_unblocked(&landing, self.last_layer(), point));
                 if reaches {
-                    let step = if near { passage.step } else { 0.0 };
                     found(passage.arrival(&landing, parameter, step, point));
                 }
                 return;
@@ -220,6 +226,12 @@ impl Passage {
             step: -distance / end,
             widths: [start, end],
         }
+    }
+
+    /// The way from the start of the ray to the point, after a small step of its parameter.
+    fn way_after(&self, ray: &Ray, step: f64) -> f64 {
+        let forward = self.inverse_speed * self.velocity.dot(ray.point_change);
+        self.travel / self.inverse_speed - step * forward
     }
 
     /// The arrival by a ray that passes the point at a small distance, and through it after a `step` of its parameter.

@@ -5,9 +5,9 @@
 //! shrink to something like a line where they pass the caustic, and open again turned over. Thin grey tubes
 //! are the four corner rays and the middle one.
 
-use anyhow::Result;
-use glam::{DMat3, DVec3, dvec3};
-use wavefront::{DualSurface, Mirror, SampledSurface, SpacePoint};
+use anyhow::{Context as _, Result, ensure};
+use glam::{DMat3, DVec3, dvec2, dvec3};
+use wavefront::{DualSurface, FrontPatches, Mirror, PatchOptions, SampledSurface, SpacePoint};
 
 use crate::color::{BLUE, Color, GREY, ORANGE, SKY, VERMILION, YELLOW};
 use crate::demo::{Context, Demo};
@@ -25,6 +25,9 @@ pub(super) struct Wavefront3d {
 /// The ellipsoid from which the wave starts: its centre and half axes along the coordinates.
 const CENTRE: DVec3 = dvec3(-2.3, 0.0, 2.6);
 const AXES: DVec3 = dvec3(0.5, 0.42, 0.34);
+/// The ways that the drawn fronts have run, down into the bowl and up again.
+const FALLING: [f64; 4] = [0.75, 1.3, 1.85, 2.4];
+const RISING: [f64; 4] = [4.2, 5.1, 6.0, 6.9];
 /// The bowl is z = BEND (x² + y²).
 const BEND: f64 = 0.2;
 
@@ -63,7 +66,18 @@ impl Demo for Wavefront3d {
             (coarse / fine).log2(),
             Target::AtLeast(1.8),
         );
-        self.draw(context, &front)
+        let patches = self.patches(&front)?;
+        let (independent, compared) = self.patch_error(&front, &patches, count)?;
+        context.number("patch_max_error", independent, Target::AtMost(2e-6));
+        context.number("patch_rays_compared", compared, Target::AtLeast(50.0));
+        let bent = RISING.map(|run| patches.offset(run).joint_errors(4).0);
+        context.number(
+            "patch_g1_max_angle_rad",
+            bent.into_iter().fold(0.0, f64::max),
+            Target::AtMost(1e-8),
+        );
+        context.number("patches", patches.cells().count(), Target::AtLeast(16.0));
+        self.draw(context, &front, &patches)
     }
 }
 
@@ -189,10 +203,64 @@ impl Wavefront3d {
         Ok(largest)
     }
 
-    fn draw(&self, context: &mut Context, front: &DualSurface) -> Result<()> {
+    /// The reflected front as smooth patches, over the square of normals inside those of the beam.
+    fn patches(&self, front: &DualSurface) -> Result<FrontPatches> {
+        let corners = self.beam(front, 3)?.reflect(&bowl()?)?;
+        let middle = corners.rays()[4].normal;
+        // The stereographic coordinate of a normal at an angle is the tangent of half of it.
+        let half = |ray: &SpacePoint| (0.5 * ray.normal.angle_between(middle)).tan();
+        let sides = [1, 3, 5, 7].map(|side| half(&corners.rays()[side]));
+        let half_width = sides.into_iter().fold(f64::INFINITY, f64::min);
+        let options = PatchOptions {
+            tolerance: 1e-6,
+            ..PatchOptions::default()
+        };
+        let aim = -CENTRE.normalize();
+        let patches = FrontPatches::reflected(front, &bowl()?, aim, half_width, options)?;
+        ensure!(
+            patches.omissions().is_empty(),
+            "the beam is too wide: its normals fold"
+        );
+        Ok(patches)
+    }
+
+    /// The largest distance of the patches, at all times that are drawn, from rays that are traced by bisection from normals of
+    /// their own; and how many rays that are.
+    fn patch_error(
+        &self,
+        front: &DualSurface,
+        patches: &FrontPatches,
+        count: usize,
+    ) -> Result<(f64, usize)> {
+        let moved = RISING.map(|run| patches.offset(run));
+        let (mut largest, mut compared) = (0.0_f64, 0);
+        for start in self.beam(front, count)?.rays() {
+            let hit = bowl_hit(*start);
+            let facing = dvec3(-2.0 * BEND * hit.x, -2.0 * BEND * hit.y, 1.0).normalize();
+            let normal = start.normal - 2.0 * start.normal.dot(facing) * facing;
+            let Some((cell, share)) = patches.cell_of(normal) else {
+                continue;
+            };
+            compared += 1;
+            for (front, run) in moved.iter().zip(RISING) {
+                let exact = hit + (run - hit.distance(start.point)) * normal;
+                let point = front.point(cell, share).context("the patch is there")?;
+                largest = largest.max(point.distance(exact));
+            }
+        }
+        Ok((largest, compared))
+    }
+
+    fn draw(
+        &self,
+        context: &mut Context,
+        front: &DualSurface,
+        patches: &FrontPatches,
+    ) -> Result<()> {
         let count = context.pick(180, 48);
         let incoming = self.beam(front, count)?;
         let reflected = incoming.reflect(&bowl()?)?;
+        let moved = RISING.map(|run| patches.offset(run));
         let scene = |tolerance: f64| -> Result<Scene> {
             let mut scene = Scene::new();
             let radius = 1.9;
@@ -215,13 +283,13 @@ impl Wavefront3d {
                 (front.point(normal), normal)
             };
             scene.add(Mesh::surface(body, |_| tolerance), Material::glossy(ORANGE))?;
-            for (i, run) in [0.75, 1.3, 1.85, 2.4].into_iter().enumerate() {
+            for (i, run) in FALLING.into_iter().enumerate() {
                 let color = SKY.mix(BLUE, i as f32 / 3.0);
                 scene.add(sheet(&incoming.offset(run)), Material::glossy(color))?;
             }
-            for (i, run) in [4.2, 5.1, 6.0, 6.9].into_iter().enumerate() {
+            for (i, front) in moved.iter().enumerate() {
                 let color = YELLOW.mix(VERMILION, 0.35 + 0.65 * i as f32 / 3.0);
-                scene.add(sheet(&reflected.offset(run)), Material::glossy(color))?;
+                scene.add(patched(front), Material::glossy(color))?;
             }
             for index in [0, count - 1, count * (count - 1), count * count - 1] {
                 let (start, end) = (incoming.rays()[index], reflected.offset(6.9).rays()[index]);
@@ -259,6 +327,26 @@ fn bowl_hit(ray: SpacePoint) -> DVec3 {
         }
     }
     ray.point + 0.5 * (low + high) * ray.normal
+}
+
+/// All patches as one mesh: there are none left out.
+fn patched(front: &FrontPatches) -> Mesh {
+    const STEPS: usize = 8;
+    let last = front.columns() * STEPS;
+    let at = |i: usize| {
+        let cell = (i / STEPS).min(front.columns() - 1);
+        (cell, (i - cell * STEPS) as f64 / STEPS as f64)
+    };
+    let (mut points, mut normals) = (Vec::new(), Vec::new());
+    for row in 0..=last {
+        for column in 0..=last {
+            let ((i, s), (j, t)) = (at(column), at(row));
+            let share = dvec2(s, t);
+            points.extend(front.point([i, j], share));
+            normals.push(front.normal(front.coordinates([i, j], share)));
+        }
+    }
+    Mesh::from_rows(last + 1, points, normals)
 }
 
 fn sheet(surface: &SampledSurface) -> Mesh {

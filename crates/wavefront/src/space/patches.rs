@@ -453,6 +453,21 @@ impl FrontPatches {
         ))
     }
 
+    /// The patch that has a unit normal, and the shares of its sides; none for a normal outside the square or one that is left
+    /// out.
+    #[must_use]
+    pub fn cell_of(&self, normal: DVec3) -> Option<([usize; 2], DVec2)> {
+        let image = self.frame * normal;
+        let place = image.truncate() / (1.0 + image.z);
+        let scaled = (place + self.half_width) / self.step();
+        let whole = scaled
+            .floor()
+            .clamp(DVec2::ZERO, DVec2::splat(self.columns as f64 - 1.0));
+        let (cell, share) = ([whole.x as usize, whole.y as usize], scaled - whole);
+        let inside = share.cmpge(DVec2::ZERO).all() && share.cmple(DVec2::ONE).all();
+        (inside && self.corners(cell).is_some()).then_some((cell, share))
+    }
+
     /// The stereographic coordinates at shares of a patch's sides.
     #[must_use]
     pub fn coordinates(&self, cell: [usize; 2], share: DVec2) -> DVec2 {
