@@ -45,18 +45,22 @@ pub struct FrontPatches {
     half_width: f64,
     columns: usize,
     nodes: Vec<Option<Node>>,
+    /// The cells that have a patch, if all of their corners have a ray.
+    kept: Vec<bool>,
     distance: f64,
     error: f64,
     omissions: Vec<Omission>,
 }
 
 /// A patch that is left out.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Omission {
     /// Its column and row.
     pub cell: [usize; 2],
-    /// Why: no ray with a normal of it, or a fold of the normals.
-    pub reason: Error,
+    /// Its error over the tolerance, next to a fold of the normals; none where no ray is reflected to a normal of its corners,
+    /// or they have folded.
+    pub excess: Option<f64>,
 }
 
 /// f and its derivatives by u, v and both, at a node.
@@ -78,6 +82,12 @@ struct Tube {
 
 /// Patches along each side to begin with.
 const FIRST_COLUMNS: usize = 8;
+/// Where patches are compared with rays, as shares of their sides.
+const INSIDE: [DVec2; 3] = [
+    DVec2::new(0.5, 0.5),
+    DVec2::new(0.2, 0.7),
+    DVec2::new(0.8, 0.3),
+];
 /// Newton's method for the incoming normal doubles its digits; from a neighbour it needs four steps.
 const STEPS: usize = 24;
 /// It has arrived when the outgoing normal is as close as this.
@@ -139,13 +149,13 @@ impl FrontPatches {
     /// The front of a surface after reflection in a mirror, around the ray with the incoming normal `aim`: over the square of
     /// outgoing normals with `half_width` in stereographic coordinates (the tangent of half the angle from the middle).
     ///
-    /// The number of patches is doubled until rays that were not interpolated agree. Patches with normals that no ray of the
-    /// front is reflected to, or where the normals fold, are left out.
+    /// The number of patches is doubled until rays that were not interpolated agree, or up to the most. Patches that do not
+    /// agree then, next to a fold of the normals, are left out, as are those with normals that no ray is reflected to.
     ///
     /// # Errors
     /// [`Error::ZeroDirection`]; [`Error::OutOfRange`] for a half width or a tolerance that is not positive and finite;
     /// [`Error::Miss`] if the middle ray does not meet the mirror (with the x and y of its start); [`Error::NotConverged`]
-    /// with the error over the tolerance if the number of patches does not suffice.
+    /// with the error over the tolerance if no patch meets it.
     pub fn reflected(
         surface: &DualSurface,
         mirror: &Mirror,
@@ -176,20 +186,23 @@ impl FrontPatches {
                 half_width,
                 columns,
                 nodes: vec![None; (columns + 1) * (columns + 1)],
+                kept: vec![true; columns * columns],
                 distance: 0.0,
                 error: 0.0,
                 omissions: Vec::new(),
             };
             front.trace(surface, mirror, aim, middle.determinant());
-            front.judge(surface, mirror, middle.determinant());
-            if front.error <= options.tolerance {
-                return Ok(front);
-            }
-            if 2 * columns > options.most_columns {
+            let errors = front.errors(surface, mirror, middle.determinant());
+            let worst = errors.iter().flatten().copied().fold(0.0, f64::max);
+            if worst <= options.tolerance || 2 * columns > options.most_columns {
+                front.keep(&errors, options.tolerance);
+                if front.cells().next().is_some() {
+                    return Ok(front);
+                }
                 return Err(Error::NotConverged {
                     start: -half_width,
                     end: half_width,
-                    excess: front.error / options.tolerance,
+                    excess: worst / options.tolerance,
                     depth,
                 });
             }
@@ -281,32 +294,35 @@ impl FrontPatches {
         ]
     }
 
-    /// Measures each patch at rays inside it, and leaves out those without.
-    fn judge(&mut self, surface: &DualSurface, mirror: &Mirror, determinant: f64) {
-        for row in 0..self.columns {
-            for column in 0..self.columns {
-                let cell = [column, row];
-                let Some(nodes) = self.corners(cell) else {
-                    let from = self.normal(self.middle(cell)).truncate();
+    /// The largest distance of each patch from rays inside it; none for a patch without rays at its corners.
+    fn errors(&self, surface: &DualSurface, mirror: &Mirror, determinant: f64) -> Vec<Option<f64>> {
+        let error = |index: usize| {
+            let cell = [index % self.columns, index / self.columns];
+            let start = self.corners(cell)?[0].incoming;
+            let away = INSIDE.map(|share| {
+                let place = self.coordinates(cell, share);
+                let ray = self.incoming(surface, mirror, place, start, determinant);
+                match (ray, self.point(cell, share)) {
+                    (Some((_, tube)), Some(point)) => point.distance(tube.point),
+                    _ => f64::INFINITY,
+                }
+            });
+            Some(away.into_iter().fold(0.0, f64::max))
+        };
+        (0..self.kept.len()).map(error).collect()
+    }
+
+    /// Leaves out what has no rays or misses the tolerance.
+    fn keep(&mut self, errors: &[Option<f64>], tolerance: f64) {
+        for (index, error) in errors.iter().enumerate() {
+            match *error {
+                Some(error) if error <= tolerance => self.error = self.error.max(error),
+                other => {
+                    self.kept[index] = false;
                     self.omissions.push(Omission {
-                        cell,
-                        reason: Error::Miss { from },
+                        cell: [index % self.columns, index / self.columns],
+                        excess: other.map(|error| error / tolerance),
                     });
-                    continue;
-                };
-                for share in [
-                    DVec2::new(0.5, 0.5),
-                    DVec2::new(0.2, 0.7),
-                    DVec2::new(0.8, 0.3),
-                ] {
-                    let place = self.place([column as f64 + share.x, row as f64 + share.y]);
-                    let start = nodes[0].incoming;
-                    let ray = self.incoming(surface, mirror, place, start, determinant);
-                    let error = match (ray, self.point(cell, share)) {
-                        (Some((_, tube)), Some(point)) => point.distance(tube.point),
-                        _ => f64::INFINITY,
-                    };
-                    self.error = self.error.max(error);
                 }
             }
         }
@@ -320,13 +336,9 @@ impl FrontPatches {
         DVec2::splat(-self.half_width) + self.step() * DVec2::new(column, row)
     }
 
-    fn middle(&self, [column, row]: [usize; 2]) -> DVec2 {
-        self.place([column as f64 + 0.5, row as f64 + 0.5])
-    }
-
     /// The nodes of a patch: lower left and right, upper left and right.
     fn corners(&self, [column, row]: [usize; 2]) -> Option<[Node; 4]> {
-        if column >= self.columns || row >= self.columns {
+        if column >= self.columns || !*self.kept.get(row * self.columns + column)? {
             return None;
         }
         let node = |right: usize, up: usize| {

@@ -200,9 +200,18 @@ fn folds_and_normals_without_rays_are_left_out_with_a_reason() {
         most_columns: 64,
     };
     let wide = FrontPatches::reflected(&front, &ball, aim, 3.0, options);
-    match wide {
-        Ok(patches) => assert!(!patches.omissions().is_empty()),
-        Err(error) => assert!(matches!(error, Error::NotConverged { .. }), "{error}"),
+    let patches = wide.unwrap();
+    assert!(patches.cells().next().is_some() && patches.error() <= 1e-2);
+    // Some normals have no ray; next to them patches are too rough.
+    assert!(
+        patches
+            .omissions()
+            .iter()
+            .any(|left_out| left_out.excess.is_none())
+    );
+    for left_out in patches.omissions() {
+        assert!(left_out.excess.is_none_or(|excess| excess > 1.0));
+        assert!(patches.point(left_out.cell, DVec2::splat(0.5)).is_none());
     }
     let up = FrontPatches::reflected(&front, &ball, -aim, 0.1, options);
     assert!(matches!(up, Err(Error::Miss { .. })));
@@ -210,6 +219,12 @@ fn folds_and_normals_without_rays_are_left_out_with_a_reason() {
         let none = FrontPatches::reflected(&front, &ball, aim, half_width, options);
         assert!(matches!(none, Err(Error::OutOfRange { .. })));
     }
+    let impossible = PatchOptions {
+        tolerance: 1e-30,
+        most_columns: 8,
+    };
+    let rough = FrontPatches::reflected(&front, &ball, aim, 0.1, impossible);
+    assert!(matches!(rough, Err(Error::NotConverged { .. })));
     let aimless = FrontPatches::reflected(&front, &ball, DVec3::ZERO, 0.1, options);
     assert!(matches!(aimless, Err(Error::ZeroDirection { .. })));
 }

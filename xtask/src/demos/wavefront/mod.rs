@@ -1,8 +1,8 @@
 //! Waves in a layered model with curved interfaces: rays, fronts at successive times, and what receivers hear.
 //!
 //! What one sees: three media, darker where the wave is faster, between two curved interfaces, a source (red) and a line of
-//! receivers. In the left plot the rays that come back, a colour for each history: reflected at the first interface, at the
-//! second, or back and forth between the two. In the right one all fronts at a few times; they are bent, cut and folded at the
+//! receivers. In the upper plot the rays that come back, a colour for each history: reflected at the first interface, at the
+//! second, or back and forth between the two. In the lower one all fronts at a few times; they are bent, cut and folded at the
 //! interfaces. The second figure is the section, arrival time against receiver: bow ties where the caustic of a valley lies.
 //! The animation shows the fronts running.
 

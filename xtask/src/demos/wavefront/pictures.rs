@@ -6,7 +6,7 @@ use wavefront::{Code, Fan, Front, Mode};
 
 use crate::color::{Color, GREY, INK, MIST, VERMILION};
 use crate::demo::Context;
-use crate::figure::{Corner, Figure, Marker, Plot, Side, Style};
+use crate::figure::{Corner, Figure, Marker, Plot, Style};
 
 use super::model::Graph;
 use super::survey::Survey;
@@ -38,8 +38,9 @@ impl Survey {
         let places: Vec<DVec2> = (0..=16)
             .map(|i| self.receiver(f64::from(i) / 16.0))
             .collect();
-        plot.points(&places, Marker::Square, INK.fill());
-        plot.point(self.source, "", Side::Above, VERMILION.fill());
+        plot.points(&places, Marker::Square, INK.fill().label("receivers"));
+        let source = VERMILION.fill().label("source");
+        plot.points(&[self.source], Marker::Disc, source);
     }
 
     /// A colour for the number of interfaces that a wave has met, and what is said of it.
