@@ -3,7 +3,7 @@
 //! What one sees: upper left an orange ellipsoid, the front at time zero. Four square sheets, blue and growing, are parts of
 //! its offsets on their way down into a grey bowl, a paraboloid. To the right, four sheets in red tones rise again: they
 //! shrink to something like a line where they pass the caustic, and open again turned over. They are smooth patches, fine lines
-//! along some of their edges. Thin grey tubes are the four corner rays of the beam.
+//! along some of their edges. Thin grey tubes are the rays through their corners.
 
 use anyhow::{Context as _, Result};
 use glam::{DMat3, DVec2, DVec3, dvec2, dvec3};
@@ -261,9 +261,13 @@ impl Wavefront3d {
         front: &DualSurface,
         patches: &FrontPatches,
     ) -> Result<()> {
-        let count = context.pick(180, 48);
-        let incoming = self.beam(front, count)?;
-        let reflected = incoming.reflect(&bowl()?)?;
+        // The part of the incoming front that is reflected to the patches.
+        let last = patches.columns();
+        let nodes = (0..=last).flat_map(|row| (0..=last).map(move |column| [column, row]));
+        let normals = nodes
+            .map(|node| patches.incoming_normal(node))
+            .collect::<Option<Vec<_>>>()
+            .context("the beam is too wide: its normals fold")?;
         let moved = RISING.map(|run| patches.offset(run));
         let scene = |tolerance: f64| -> Result<Scene> {
             let mut scene = Scene::new();
@@ -289,17 +293,30 @@ impl Wavefront3d {
             scene.add(Mesh::surface(body, |_| tolerance), Material::glossy(ORANGE))?;
             for (i, run) in FALLING.into_iter().enumerate() {
                 let color = SKY.mix(BLUE, i as f32 / 3.0);
-                scene.add(sheet(&incoming.offset(run)), Material::glossy(color))?;
+                let moved = front.offset(run);
+                let points = normals.iter().map(|normal| moved.point(*normal)).collect();
+                let sheet = Mesh::from_rows(last + 1, points, normals.clone());
+                scene.add(sheet, Material::glossy(color))?;
             }
             for (i, front) in moved.iter().enumerate() {
                 let color = YELLOW.mix(VERMILION, 0.35 + 0.65 * i as f32 / 3.0);
                 scene.add(patched(front), Material::glossy(color))?;
                 scene.add(edges(front), Material::matte(GREY.mix(color, 0.3)))?;
             }
-            for index in [0, count - 1, count * (count - 1), count * count - 1] {
-                let (start, end) = (incoming.rays()[index], reflected.offset(6.9).rays()[index]);
-                let path = [start.point, bowl_hit(start), end.point];
-                scene.add(Mesh::tube(&path, 0.012, false), Material::matte(GREY))?;
+            for corner in [[0, 0], [1, 0], [0, 1], [1, 1]] {
+                let node = corner.map(|end| end * last);
+                let normal = patches
+                    .incoming_normal(node)
+                    .context("a corner has a ray")?;
+                let start = SpacePoint {
+                    point: front.point(normal),
+                    normal,
+                };
+                let cell = corner.map(|end| end * (last - 1));
+                let share = dvec2(corner[0] as f64, corner[1] as f64);
+                let end = moved[3].point(cell, share).context("and a patch")?;
+                let path = [start.point, bowl_hit(start), end];
+                scene.add(Mesh::tube(&path, 0.009, false), Material::matte(GREY))?;
             }
             scene.ground_below();
             Ok(scene)
@@ -367,13 +384,4 @@ fn edges(front: &FrontPatches) -> Mesh {
         let path: Vec<DVec3> = (0..=STEPS).filter_map(place).collect();
         Mesh::tube(&path, 0.004, false)
     }))
-}
-
-fn sheet(surface: &SampledSurface) -> Mesh {
-    let (points, normals) = surface
-        .rays()
-        .iter()
-        .map(|ray| (ray.point, ray.normal))
-        .unzip();
-    Mesh::from_rows(surface.columns(), points, normals)
 }

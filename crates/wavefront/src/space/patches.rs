@@ -379,6 +379,17 @@ impl FrontPatches {
             .filter(|cell| self.corners(*cell).is_some())
     }
 
+    /// The incoming normal whose ray is reflected to the normal at a node, its column and row from 0 to [`Self::columns`]; none
+    /// where no ray is.
+    #[must_use]
+    pub fn incoming_normal(&self, [column, row]: [usize; 2]) -> Option<DVec3> {
+        if column > self.columns {
+            return None;
+        }
+        let node = self.nodes.get(row * (self.columns + 1) + column)?;
+        node.map(|node| node.incoming)
+    }
+
     /// The front after running `distance`, through every caustic: f changes by the distance times `1 + u² + v²`.
     #[must_use]
     pub fn offset(&self, distance: f64) -> Self {
