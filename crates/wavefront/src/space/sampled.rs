@@ -54,7 +54,7 @@ impl SampledSurface {
     /// # Errors
     /// [`Error::OutOfRange`] for less than two rows or columns, or an incomplete row.
     pub fn from_rays(columns: usize, rays: Vec<SpacePoint>) -> Result<Self, Error> {
-        if columns < 2 || rays.len() < 2 * columns || rays.len() % columns != 0 {
+        if columns < 2 || rays.len() < 2 * columns || !rays.len().is_multiple_of(columns) {
             return Err(Error::OutOfRange {
                 what: "the number of rows and columns",
                 value: rays.len() as f64 / columns as f64,
