@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::fan::Run;
 use crate::trace::Landing;
-use crate::{Fan, Ray};
+use crate::{Fan, Medium, Ray};
 
 /// A wave's arrival at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +38,10 @@ const NEAR: f64 = 1e-6;
 const SMALL_STEP: f64 = 1e-3;
 /// On a caustic the last step may be large though the ray passes: at this share of the model's size it does.
 const THROUGH: f64 = 1e-12;
+/// A step of Newton's method on a strip's cubic this small (a share of the strip) leaves less than the exact ray needs.
+const GOOD_START: f64 = 1e-2;
+/// A receiver as close to the start of a ray's last leg as this share of the model's size is at it.
+const AT_START: f64 = 1e-9;
 /// Newton's method in a bracket, with a halving where it leaves or stalls.
 const STEPS: usize = 60;
 
@@ -69,29 +73,29 @@ impl Fan<'_> {
         }
         for run in self.runs() {
             for index in 0..run.strips.len() {
-                self.meet(run, index, point, &mut found);
+                let strip = &run.strips[index];
+                if let Some(distances) = strip.distances_within(point, self.slack()) {
+                    self.follow(run, index, false, distances, point, &mut found);
+                }
             }
         }
     }
 
-    /// Calls `found` for each arrival of a strip at a point.
+    /// Calls `found` for each arrival of a strip at a point that has these distances from its control lines.
     ///
-    /// The distances of the point from the strip's control lines are the Bernstein coefficients of its distance from the
-    /// rays. Where they change sign there is a ray through the point, and their cubic's zero is its parameter but for the
-    /// interpolation's error, which one step of Newton's method on the exact ray removes.
-    pub(crate) fn meet(
+    /// The distances are the Bernstein coefficients of the point's distance from the rays. Where they change sign there is a
+    /// ray through the point, and their cubic's zero is its parameter but for the interpolation's error, which one step of
+    /// Newton's method on the exact ray removes. Rays of a strip that is clear are known to meet no boundary.
+    #[inline]
+    pub(crate) fn follow(
         &self,
         run: &Run,
         index: usize,
+        is_clear: bool,
+        distances: [f64; 4],
         point: DVec2,
         found: &mut impl FnMut(Arrival),
     ) {
-        let distances = run.strips[index].distances(point);
-        let slack = self.slack();
-        let beyond = |sign: f64| distances.iter().all(|distance| sign * distance > slack);
-        if beyond(1.0) || beyond(-1.0) {
-            return;
-        }
         let (start, end) = (run.parameters[index], run.parameters[index + 1]);
         let at = |share: f64| start + share * (end - start);
         let right = distances.map(|distance| distance <= 0.0);
@@ -102,8 +106,10 @@ impl Fan<'_> {
                 low: start,
                 high: end,
                 right_at_low: right[0],
+                guess,
+                is_clear,
             };
-            self.refine(run, index, bracket, guess, point, found);
+            self.refine(run, index, bracket, point, found);
             return;
         }
         // The rays nearest to the point lie between the arrivals, if there are several.
@@ -113,7 +119,8 @@ impl Fan<'_> {
         for (parameter, is_right) in turns
             .filter_map(|share| {
                 let landing = self.ray_near(run, index, at(share))?;
-                Some((at(share), self.side(&landing, point).0 <= 0.0))
+                let medium = self.last_medium();
+                Some((at(share), landing.ray.side(point, medium).0 <= 0.0))
             })
             .chain([high])
         {
@@ -122,9 +129,10 @@ impl Fan<'_> {
                     low: low.0,
                     high: parameter,
                     right_at_low: low.1,
+                    guess: 0.5 * (low.0 + parameter),
+                    is_clear,
                 };
-                let guess = 0.5 * (low.0 + parameter);
-                self.refine(run, index, bracket, guess, point, found);
+                self.refine(run, index, bracket, point, found);
             }
             low = (parameter, is_right);
         }
@@ -136,71 +144,111 @@ impl Fan<'_> {
         NEAR * self.model().size()
     }
 
-    #[inline]
-    fn side(&self, landing: &Landing, point: DVec2) -> (f64, f64) {
-        let medium = &self.model().media()[self.last_layer()];
-        landing.ray.side(point, medium)
+    fn last_medium(&self) -> &Medium {
+        &self.model().media()[self.last_layer()]
     }
 
     /// Finds the ray through the point inside a bracket, and reports it if it gets there.
-    #[inline]
+    #[inline(always)]
     fn refine(
         &self,
         run: &Run,
         index: usize,
         mut bracket: Bracket,
-        guess: f64,
         point: DVec2,
         found: &mut impl FnMut(Arrival),
     ) {
         let size = self.model().size();
         let small = SMALL_STEP * (run.parameters[index + 1] - run.parameters[index]);
-        let mut parameter = guess;
+        let mut parameter = bracket.guess;
         for round in 0..STEPS {
             let Some(landing) = self.ray_near(run, index, parameter) else {
                 return;
             };
-            let (distance, slope) = self.side(&landing, point);
-            let step = -distance / slope;
-            let near = distance.abs() <= NEAR * size && step.abs() <= small;
+            let passage = Passage::new(&landing.ray, point, self.last_medium());
+            let near = passage.distance.abs() <= NEAR * size && passage.step.abs() <= small;
             let stuck = bracket.high - bracket.low <= f64::EPSILON;
-            if near || stuck || distance.abs() <= THROUGH * size {
-                let step = if near { step } else { 0.0 };
-                if self.model().reaches(&landing, self.last_layer(), point) {
-                    found(self.arrival(landing, parameter, distance, step, point));
+            if near || stuck || passage.distance.abs() <= THROUGH * size {
+                let step = if near { passage.step } else { 0.0 };
+                // On the interface that the wave leaves it arrives as it sets out.
+                let at_start = landing.left.is_some()
+                    && passage.way_after(&landing.ray, step).abs() <= AT_START * size;
+                let reaches = at_start
+                    || passage.travel > 0.0
+                        && (bracket.is_clear
+                            || self
+                                .model()
+                                .is_unblocked(&landing, self.last_layer(), point));
+                if reaches {
+                    found(passage.arrival(&landing, parameter, step, point));
                 }
                 return;
             }
-            bracket.narrow(parameter, distance <= 0.0);
-            parameter = bracket.next(parameter + step, round);
+            bracket.narrow(parameter, passage.distance <= 0.0);
+            parameter = bracket.next(parameter + passage.step, round);
+        }
+    }
+}
+
+/// How a ray passes a point.
+struct Passage {
+    velocity: DVec2,
+    inverse_speed: f64,
+    /// The travel time from the ray's start to the place next to the point.
+    travel: f64,
+    /// The signed distance of the point, positive to the left.
+    distance: f64,
+    /// The step of the parameter to the ray through the point, to first order.
+    step: f64,
+    /// The width of the tube, signed, where the ray starts and at the point.
+    widths: [f64; 2],
+}
+
+impl Passage {
+    #[inline]
+    fn new(ray: &Ray, point: DVec2, medium: &Medium) -> Self {
+        let velocity = medium.group_velocity(ray.slowness);
+        let change = medium.group_velocity_change(ray.slowness, ray.slowness_change);
+        let way = point - ray.point;
+        let inverse_square = velocity.length_squared().recip();
+        let inverse_speed = inverse_square.sqrt();
+        let travel = velocity.dot(way) * inverse_square;
+        let distance = velocity.perp_dot(way) * inverse_speed;
+        // The neighbours' places across the ray, where it starts and next to the point: what they gain there is what the
+        // distance changes by.
+        let start = ray.point_change.perp_dot(velocity) * inverse_speed;
+        let end = start + travel * change.perp_dot(velocity) * inverse_speed;
+        Self {
+            velocity,
+            inverse_speed,
+            travel,
+            distance,
+            step: -distance / end,
+            widths: [start, end],
         }
     }
 
-    /// The arrival by a ray that passes the point at a small `distance`, and through it after a `step` of its parameter.
+    /// The way from the start of the ray to the point, after a small step of its parameter.
+    fn way_after(&self, ray: &Ray, step: f64) -> f64 {
+        let forward = self.inverse_speed * self.velocity.dot(ray.point_change);
+        self.travel / self.inverse_speed - step * forward
+    }
+
+    /// The arrival by a ray that passes the point at a small distance, and through it after a `step` of its parameter.
     #[inline]
-    fn arrival(
-        &self,
-        landing: Landing,
-        parameter: f64,
-        distance: f64,
-        step: f64,
-        point: DVec2,
-    ) -> Arrival {
-        let medium = &self.model().media()[self.last_layer()];
-        let ray = landing.ray;
-        let velocity = medium.group_velocity(ray.slowness);
-        let speed = velocity.length();
+    fn arrival(&self, landing: &Landing, parameter: f64, step: f64, point: DVec2) -> Arrival {
+        let ray = &landing.ray;
         // T(t) = time + <s, X - x> has the derivative <s', X - x>, which is proportional to the distance and to it alone:
         // the integral over the step is half of the product.
-        let rate = ray.slowness_change.perp_dot(velocity) / speed * -distance;
-        let time = ray.time_at(point) + 0.5 * rate * step;
-        let there = ray.after(velocity.dot(point - ray.point) / (speed * speed), medium);
+        let turning = ray.slowness_change.perp_dot(self.velocity) * self.inverse_speed;
+        let rate = -turning * self.distance;
+        let [start, end] = self.widths;
         Arrival {
-            time,
+            time: ray.time_at(point) + 0.5 * rate * step,
             parameter: parameter + step,
             ray: ray.moved(step),
-            tube_width: (there.point_change.perp_dot(velocity) / speed).abs(),
-            caustics: landing.caustics + u32::from(ray.is_beyond_caustic_at(&there, velocity)),
+            tube_width: end.abs(),
+            caustics: landing.caustics + u32::from(start * end < 0.0),
         }
     }
 }
@@ -210,6 +258,10 @@ struct Bracket {
     low: f64,
     high: f64,
     right_at_low: bool,
+    /// Where to begin.
+    guess: f64,
+    /// Whether its rays are known to meet nothing on their last leg.
+    is_clear: bool,
 }
 
 impl Bracket {
@@ -243,12 +295,16 @@ fn only_zero([a, b, c, d]: [f64; 4]) -> f64 {
     let mut t = a / (a - d);
     for _ in 0..2 {
         let value = ((cube * t + square) * t + slope) * t + a;
-        let next = t - value / ((3.0 * cube * t + 2.0 * square) * t + slope);
+        let step = value / ((3.0 * cube * t + 2.0 * square) * t + slope);
+        let next = t - step;
         t = if next.is_nan() {
             0.5
         } else {
             next.clamp(0.0, 1.0)
         };
+        if step.abs() < GOOD_START {
+            break;
+        }
     }
     t
 }

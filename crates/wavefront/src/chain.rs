@@ -3,48 +3,34 @@
 use bezier_mass::BezierCurve;
 use glam::DVec2;
 
+use crate::beam::{Part, Wedge};
+use crate::piece::{Bounds, MOST_POWERS, Piece, SMALL_PART, impact, sign_changes};
+use crate::strip::{Reach, Strip};
 use crate::{Error, Impact};
 
 /// Bézier curves one after the other. The parameter is the number of the piece plus that on the piece.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(try_from = "Vec<BezierCurve<DVec2>>", into = "Vec<BezierCurve<DVec2>>")
-)]
 pub(crate) struct Chain {
     pieces: Vec<Piece>,
     /// A heap: node k holds its children 2k and 2k + 1, the leaves are the pieces and, behind them, empty boxes.
     boxes: Vec<Bounds>,
 }
 
-#[derive(Clone, Debug, PartialEq)]
-struct Piece {
-    curve: BezierCurve<DVec2>,
-    /// The coefficients of the powers of the parameter of a polynomial piece, for quick values; none for a rational one.
-    powers: Vec<DVec2>,
-}
-
-/// A box around pieces; infinite if a weight is not positive.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Bounds {
-    low: DVec2,
-    high: DVec2,
-}
-
 /// A parameter this far outside `[0, 1]` still belongs to a chain's end piece.
 const END_SLACK: f64 = 1e-12;
 /// Newton's method from a neighbouring ray's place; it doubles its digits, and is given up for the certified search.
 const GUIDED_STEPS: usize = 10;
-/// Behind a step this small (in the piece's parameter) Newton's method has converged: the next one is below rounding.
-const CONVERGED: f64 = 1e-8;
-/// A piece of a higher degree is not put in powers, where digits would be lost.
-const MOST_POWERS: usize = 8;
+/// From a place this near (in the piece's parameter) a step of the third order ends the search: what it leaves is the cube of
+/// this, below rounding.
+const CONVERGED: f64 = 1e-5;
+/// The part of that step which is of the second order is the square of its length in a well-placed search, no more than this.
+const CURVED: f64 = 1e-10;
+/// Between two rays an interface may turn by so much more (radians) than from the one to the other.
+const PLAIN_TURN: f64 = 0.1;
 /// The pieces of a chain meet to this share of one and their distance from the origin.
 const JOINT: f64 = 1e-6;
-/// Boxes are widened by this share of their size, against rounding.
-const MARGIN: f64 = 1e-12;
-
+/// Parts are looked for in a box that is widened by this share of its size, against rounding.
+const PART_MARGIN: f64 = 1e-8;
 impl Chain {
     pub(crate) fn new(curves: impl IntoIterator<Item = BezierCurve<DVec2>>) -> Result<Self, Error> {
         let pieces: Vec<Piece> = curves.into_iter().map(Piece::new).collect();
@@ -80,6 +66,11 @@ impl Chain {
         Ok(Self { pieces, boxes })
     }
 
+    #[cfg(feature = "serde")]
+    pub(crate) fn into_curves(self) -> Vec<BezierCurve<DVec2>> {
+        self.pieces.into_iter().map(|piece| piece.curve).collect()
+    }
+
     pub(crate) fn piece_count(&self) -> usize {
         self.pieces.len()
     }
@@ -91,6 +82,73 @@ impl Chain {
     pub(crate) fn point(&self, parameter: f64) -> Option<DVec2> {
         let (index, t) = self.locate(parameter);
         self.pieces[index].curve.jet(t).position()
+    }
+
+    /// The length of the derivative by the parameter.
+    pub(crate) fn speed(&self, parameter: f64) -> Option<f64> {
+        let (index, t) = self.locate(parameter);
+        Some(self.pieces[index].jet(t)?[1].length())
+    }
+
+    /// Whether the rays of a strip surely do not meet the chain, or not once more where they start on it (`left`): the pieces
+    /// that they may pass are neighbours and run across all of the rays in one sense, so that each ray meets them once.
+    pub(crate) fn is_clear_of(&self, strip: &Strip, reach: &Reach, left: bool) -> bool {
+        let clear = std::cell::Cell::new(true);
+        let (mut last, mut sense) = (None::<usize>, 0.0);
+        self.visit_pieces(
+            |bounds| match bounds.circle() {
+                Some((centre, radius)) => {
+                    clear.get()
+                        && reach.is_ahead(centre, radius)
+                        && strip.may_pass(centre, radius + reach.slack)
+                }
+                None => !bounds.is_empty(),
+            },
+            |index| {
+                let across = strip.sense_across(self.pieces[index].curve.control());
+                let is_next = last.is_none_or(|last| last + 1 == index && across == sense);
+                clear.set(left && across != 0.0 && is_next && clear.get());
+                (last, sense) = (Some(index), across);
+            },
+        );
+        clear.get()
+    }
+
+    /// Whether the whole pieces between two impacts have tangents between those there, but for a little.
+    pub(crate) fn is_plain_between(&self, one: &Impact, two: &Impact) -> bool {
+        let (first, last) = (self.locate(one.parameter).0, self.locate(two.parameter).0);
+        let turn = one.tangent.angle_to(two.tangent);
+        let (least, most) = (turn.min(0.0) - PLAIN_TURN, turn.max(0.0) + PLAIN_TURN);
+        let inner = self.pieces.get(first.min(last) + 1..first.max(last));
+        inner.unwrap_or_default().iter().all(|piece| {
+            piece.tangents.is_some_and(|(angle, spread)| {
+                let from = one.tangent.angle_to(DVec2::from_angle(angle));
+                from - spread >= least && from + spread <= most
+            })
+        })
+    }
+
+    /// Calls `found` with the parts in a box that rays of a wedge may meet, or with none if they turn too much.
+    pub(crate) fn visit_parts(
+        &self,
+        wedge: &Wedge,
+        [low, high]: [DVec2; 2],
+        found: &mut dyn FnMut(Option<Part>),
+    ) {
+        let margin = PART_MARGIN * (high - low);
+        let (low, high) = (low - margin, high + margin);
+        let size = SMALL_PART * (high - low).length();
+        self.visit_pieces(
+            |bounds| {
+                !bounds.is_empty()
+                    && bounds.overlaps(low, high)
+                    && wedge.may_meet(bounds.low, bounds.high)
+            },
+            |index| {
+                let bounds = self.boxes[self.boxes.len() / 2 + index];
+                self.pieces[index].visit_parts(bounds, wedge, [low, high], size, 0, found);
+            },
+        );
     }
 
     #[inline]
@@ -219,12 +277,20 @@ impl Chain {
         for _ in 0..GUIDED_STEPS {
             let (index, t) = self.locate(parameter);
             let [position, slope, bend] = self.pieces[index].jet(t)?;
-            let step = -velocity.perp_dot(position - origin) / velocity.perp_dot(slope);
+            let approach = velocity.perp_dot(slope).recip();
+            let step = -velocity.perp_dot(position - origin) * approach;
+            let curved = -0.5 * step * step * velocity.perp_dot(bend) * approach;
             parameter += step;
             if !(parameter > -END_SLACK && parameter < self.pieces.len() as f64 + END_SLACK) {
                 return None;
             }
-            if step.abs() <= CONVERGED {
+            // Behind a joint another piece goes on.
+            if step.abs() <= CONVERGED
+                && curved.abs() <= CURVED
+                && self.locate(parameter).0 == index
+            {
+                parameter += curved;
+                let step = step + curved;
                 let position = position + step * (slope + 0.5 * step * bend);
                 let jet = [position, slope + step * bend, bend];
                 let impact = impact(jet, parameter, origin, velocity)?;
@@ -267,180 +333,5 @@ impl Chain {
             node /= 2;
         }
         blocked
-    }
-}
-
-impl Piece {
-    fn new(curve: BezierCurve<DVec2>) -> Self {
-        let control = curve.control();
-        let polynomial = control.len() <= MOST_POWERS && control.iter().all(|h| h.weight == 1.0);
-        let mut powers = Vec::new();
-        if polynomial {
-            // The k-th power has the coefficient C(n, k) times the k-th difference at the start.
-            let mut differences: Vec<DVec2> = control.iter().map(|h| h.weighted).collect();
-            for k in 0..control.len() {
-                powers
-                    .push(bezier_mass::bernstein::binomial(control.len() - 1, k) * differences[0]);
-                differences = differences
-                    .windows(2)
-                    .map(|pair| pair[1] - pair[0])
-                    .collect();
-            }
-        }
-        Self { curve, powers }
-    }
-
-    fn bounds(&self) -> Bounds {
-        let mut bounds = Bounds::EMPTY;
-        for mass in self.curve.control() {
-            match mass.position() {
-                Some(point) if mass.weight > 0.0 => {
-                    bounds = bounds.union(Bounds {
-                        low: point,
-                        high: point,
-                    })
-                }
-                _ => return Bounds::EVERYTHING,
-            }
-        }
-        let margin = MARGIN * (bounds.high - bounds.low).max_element();
-        Bounds {
-            low: bounds.low - margin,
-            high: bounds.high + margin,
-        }
-    }
-
-    /// Position, first and second derivative.
-    #[inline]
-    fn jet(&self, t: f64) -> Option<[DVec2; 3]> {
-        if self.powers.is_empty() {
-            let jet = self.curve.jet(t);
-            return Some([jet.position()?, jet.velocity()?, jet.acceleration()?]);
-        }
-        let (mut value, mut slope, mut half_bend) = (DVec2::ZERO, DVec2::ZERO, DVec2::ZERO);
-        for &power in self.powers.iter().rev() {
-            half_bend = half_bend * t + slope;
-            slope = slope * t + value;
-            value = value * t + power;
-        }
-        Some([value, slope, 2.0 * half_bend])
-    }
-
-    /// The sides of a line on which the control points lie, `<J V, h - w X>`: a polynomial in Bernstein form whose roots are
-    /// the crossings.
-    #[inline]
-    fn sides<'a>(
-        &self,
-        origin: DVec2,
-        velocity: DVec2,
-        room: &'a mut [f64; MOST_POWERS],
-        more: &'a mut Vec<f64>,
-    ) -> &'a [f64] {
-        let control = self.curve.control();
-        let values = control
-            .iter()
-            .map(|mass| velocity.perp_dot(mass.weighted - mass.weight * origin));
-        if control.len() <= MOST_POWERS {
-            for (slot, value) in room.iter_mut().zip(values) {
-                *slot = value;
-            }
-            &room[..control.len()]
-        } else {
-            more.extend(values);
-            more
-        }
-    }
-
-    fn impact(&self, t: f64, index: usize, origin: DVec2, velocity: DVec2) -> Option<Impact> {
-        impact(self.jet(t)?, index as f64 + t, origin, velocity)
-    }
-}
-
-fn impact(
-    [point, slope, bend]: [DVec2; 3],
-    parameter: f64,
-    origin: DVec2,
-    velocity: DVec2,
-) -> Option<Impact> {
-    let speed = slope.length();
-    if speed == 0.0 {
-        return None;
-    }
-    Some(Impact {
-        time: velocity.dot(point - origin) / velocity.length_squared(),
-        point,
-        tangent: slope / speed,
-        curvature: slope.perp_dot(bend) / (speed * speed * speed),
-        parameter,
-    })
-}
-
-/// The number of sign changes; none if a zero makes it unclear.
-#[inline]
-fn sign_changes(values: &[f64]) -> Option<usize> {
-    let mut changes = 0;
-    for pair in values.windows(2) {
-        if pair[0] == 0.0 || pair[1] == 0.0 {
-            return None;
-        }
-        changes += usize::from((pair[0] > 0.0) != (pair[1] > 0.0));
-    }
-    Some(changes)
-}
-
-impl Bounds {
-    const EMPTY: Self = Self {
-        low: DVec2::INFINITY,
-        high: DVec2::NEG_INFINITY,
-    };
-    const EVERYTHING: Self = Self {
-        low: DVec2::NEG_INFINITY,
-        high: DVec2::INFINITY,
-    };
-
-    fn union(self, other: Self) -> Self {
-        Self {
-            low: self.low.min(other.low),
-            high: self.high.max(other.high),
-        }
-    }
-
-    /// Whether a ray may meet the box before `latest`. Written so that infinite boxes, whose centre is no number, pass.
-    #[inline]
-    fn may_meet(&self, origin: DVec2, velocity: DVec2, latest: f64) -> bool {
-        if self.low.x > self.high.x {
-            return false;
-        }
-        let centre = 0.5 * (self.low + self.high) - origin;
-        let half = 0.5 * (self.high - self.low);
-        let aside = velocity.perp_dot(centre).abs();
-        if aside > velocity.x.abs() * half.y + velocity.y.abs() * half.x {
-            return false;
-        }
-        let (along, reach) = (velocity.dot(centre), velocity.abs().dot(half));
-        if along + reach < 0.0 {
-            return false;
-        }
-        let too_late = along - reach > latest * velocity.length_squared();
-        !too_late
-    }
-
-    #[inline]
-    fn overlaps(&self, from: DVec2, to: DVec2) -> bool {
-        self.low.cmple(from.max(to)).all() && self.high.cmpge(from.min(to)).all()
-    }
-}
-
-impl TryFrom<Vec<BezierCurve<DVec2>>> for Chain {
-    type Error = Error;
-
-    fn try_from(curves: Vec<BezierCurve<DVec2>>) -> Result<Self, Error> {
-        Self::new(curves)
-    }
-}
-
-impl From<Chain> for Vec<BezierCurve<DVec2>> {
-    fn from(chain: Chain) -> Self {
-        chain.pieces.into_iter().map(|piece| piece.curve).collect()
     }
 }

@@ -8,6 +8,11 @@ use crate::fan::Run;
 /// An end of an illuminated stretch or of a front that is none of the source: at total reflection, at the edge of a shadow,
 /// at the box of the model, at a sliver that no arc can follow.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(from = "crate::stored::StoredCut", into = "crate::stored::StoredCut")
+)]
 pub struct Cut {
     /// The source's parameter of the boundary ray.
     pub parameter: f64,

@@ -2,6 +2,14 @@
 
 /// The departure time along a piece, as the quartic through five of its rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "crate::stored::StoredDepartures",
+        into = "crate::stored::StoredDepartures"
+    )
+)]
 pub(crate) struct Departures {
     nodes: [f64; 5],
     /// Newton's divided differences.
@@ -9,6 +17,11 @@ pub(crate) struct Departures {
 }
 
 impl Departures {
+    #[cfg(feature = "serde")]
+    pub(crate) const fn from_stored(nodes: [f64; 5], differences: [f64; 5]) -> Self {
+        Self { nodes, differences }
+    }
+
     /// All at one time.
     pub(crate) const fn at(time: f64) -> Self {
         Self {
@@ -40,6 +53,16 @@ impl Departures {
         terms.fold((0.0, 0.0), |(value, rate), (difference, node)| {
             (value * (t - node) + difference, rate * (t - node) + value)
         })
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<Departures> for crate::stored::StoredDepartures {
+    fn from(departures: Departures) -> Self {
+        Self {
+            nodes: departures.nodes,
+            differences: departures.differences,
+        }
     }
 }
 

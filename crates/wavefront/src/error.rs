@@ -114,6 +114,12 @@ pub enum Error {
         /// The first sample that turns back or repeats its normal.
         index: usize,
     },
+    /// A reason that has been written and read again: its words.
+    #[error("{message}")]
+    Recorded {
+        /// The words.
+        message: String,
+    },
     /// An operation on curves was refused.
     #[error(transparent)]
     Curve(#[from] ph_curves::Error),

@@ -2,9 +2,10 @@
 
 use glam::DVec2;
 
-use crate::strip::{Knot, Strip};
+use crate::sample::sample;
+use crate::strip::{Knot, Reach, Strip};
 use crate::trace::{Failure, Landing};
-use crate::{Code, Cut, Error, Front, FrontTolerance, Model, Ray, Source, Trace};
+use crate::{Code, Cut, Error, Front, FrontTolerance, Medium, Model, Ray, Source, Trace};
 
 /// The exact rays of a source with one history, as a table over the source's parameter from which rays to given points
 /// are found and refined, and fronts are fitted.
@@ -22,6 +23,7 @@ pub struct Fan<'m> {
     code: Code,
     layers: Vec<usize>,
     runs: Vec<Run>,
+    unsearched: Vec<[f64; 2]>,
 }
 
 /// A stretch of neighbouring rays.
@@ -29,11 +31,16 @@ pub struct Fan<'m> {
 pub(crate) struct Run {
     pub(crate) parameters: Vec<f64>,
     pub(crate) traces: Vec<Trace>,
+    /// The front's normals at the source.
+    pub(crate) normals: Vec<DVec2>,
     /// Between each two rays.
     pub(crate) strips: Vec<Strip>,
-    last: Option<Knot>,
+    /// Where the rays of a strip meet the interfaces, one after the other for each step of the code: the coefficients of
+    /// the powers of the share of the strip.
+    pub(crate) guides: Vec<[f64; 4]>,
+    pub(crate) last: Option<Knot>,
     /// Why it starts and ends where it does; none at the ends of the source.
-    cuts: [Option<Cut>; 2],
+    pub(crate) cuts: [Option<Cut>; 2],
 }
 
 /// How densely a fan is sampled.
@@ -57,18 +64,9 @@ impl Default for FanOptions {
 }
 
 /// A gap in a fan is bracketed to this share of the source's parameter.
-const BOUNDARY: f64 = 1e-13;
-/// Between two rays that fail in different ways a window with rays is looked for by this many halvings.
-const WINDOW_SEARCH: u32 = 8;
-/// And between two that fail alike by this many.
-const WINDOW_GUESS: u32 = 2;
-/// A fan never holds more rays than this.
-const MOST_RAYS: usize = 1 << 16;
+pub(crate) const BOUNDARY: f64 = 1e-13;
 /// Fronts keep this share of a run off a boundary: there, where rays graze, the very boundary ray has no neighbours.
 const FRONT_INSET: f64 = 1e-9;
-
-/// A ray of the source that was tried: its knot, or what stopped it.
-type Trial = (f64, Result<Knot, Failure>);
 
 impl<'m> Fan<'m> {
     /// Traces the rays.
@@ -106,8 +104,9 @@ impl<'m> Fan<'m> {
             code,
             layers,
             runs: Vec::new(),
+            unsearched: Vec::new(),
         };
-        fan.runs = Sampler::new(&fan, options).sample(options.rays);
+        (fan.runs, fan.unsearched) = sample(&fan, options);
         Ok(fan)
     }
 
@@ -140,6 +139,17 @@ impl<'m> Fan<'m> {
         self.runs.iter().flat_map(|run| &run.cuts).flatten()
     }
 
+    /// The stretches of the source's parameter without rays in which a window with rays may have been missed; elsewhere every
+    /// window wider than 2^-20 of the source's parameter has been found.
+    ///
+    /// Between two rays that fail, enclosures of all rays in between tell that there is none; where they do not, they are
+    /// halved, until that costs too much: those stretches are listed. Curved sources and rational indicatrices have no
+    /// enclosures, and are searched at some places only.
+    #[must_use]
+    pub fn unsearched(&self) -> &[[f64; 2]] {
+        &self.unsearched
+    }
+
     /// The number of rays in the table.
     #[must_use]
     pub fn ray_count(&self) -> usize {
@@ -159,7 +169,7 @@ impl<'m> Fan<'m> {
         self.attempt(parameter).map_err(|failure| failure.error)
     }
 
-    fn attempt(&self, parameter: f64) -> Result<Trace, Failure> {
+    pub(crate) fn attempt(&self, parameter: f64) -> Result<Trace, Failure> {
         let start = self
             .start(parameter)
             .map_err(|error| Failure { step: 0, error })?;
@@ -167,8 +177,20 @@ impl<'m> Fan<'m> {
     }
 
     fn start(&self, parameter: f64) -> Result<Ray, Error> {
-        let layer = self.layers.first().copied().unwrap_or(0);
-        self.source.ray(parameter, &self.model.media()[layer])
+        self.source.ray(parameter, self.first_medium())
+    }
+
+    pub(crate) fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// The media of the legs.
+    pub(crate) fn layers(&self) -> &[usize] {
+        &self.layers
+    }
+
+    pub(crate) fn first_medium(&self) -> &'m Medium {
+        &self.model.media()[self.layers.first().copied().unwrap_or(0)]
     }
 
     /// The fronts of the last leg as splines of class-3 arcs, one or more for each illuminated stretch: a sliver of rays
@@ -199,7 +221,10 @@ impl<'m> Fan<'m> {
                 let index = run.strip_at(parameter);
                 self.ray_near(run, index, parameter)
                     .map(|landing| landing.ray)
-                    .ok_or(Error::Miss { from: DVec2::NAN })
+                    .ok_or_else(|| match self.start(parameter) {
+                        Ok(ray) => Error::Miss { from: ray.point },
+                        Err(error) => error,
+                    })
             };
             fronts.extend(Front::fit_stretch(
                 medium,
@@ -223,20 +248,72 @@ impl<'m> Fan<'m> {
         [start].into_iter().chain(inner).chain([end]).collect()
     }
 
+    /// The parameters of the impacts between two rays at a distance of `width`, as cubics through both with their slopes.
+    pub(crate) fn guides<'a>(
+        &'a self,
+        one: &'a Trace,
+        two: &'a Trace,
+        width: f64,
+    ) -> impl Iterator<Item = [f64; 4]> + 'a {
+        let rate = move |trace: &Trace, step: usize| {
+            let impact = trace.impacts[step];
+            let interface = &self.model.interfaces()[self.code.steps[step].interface];
+            let along = trace.legs[step + 1].point_change.dot(impact.tangent);
+            interface
+                .speed(impact.parameter)
+                .map(|speed| width * along / speed)
+        };
+        (0..self.code.steps.len()).map(move |step| {
+            let start = one.impacts[step].parameter;
+            let rise = two.impacts[step].parameter - start;
+            match (rate(one, step), rate(two, step)) {
+                (Some(p), Some(q)) if p.is_finite() && q.is_finite() => {
+                    [start, p, 3.0 * rise - 2.0 * p - q, p + q - 2.0 * rise]
+                }
+                _ => [start, rise, 0.0, 0.0],
+            }
+        })
+    }
+
+    /// Whether the interfaces turn between the impacts of two rays as they do there: no notch or bump lies in between.
+    pub(crate) fn is_plain_between(&self, one: &Trace, two: &Trace) -> bool {
+        let steps = self.code.steps.iter().zip(&one.impacts).zip(&two.impacts);
+        steps.into_iter().all(|((step, from), to)| {
+            self.model.interfaces()[step.interface].is_plain_between(from, to)
+        })
+    }
+
+    /// Whether the rays of a strip surely meet nothing on their last leg.
+    pub(crate) fn is_clear(&self, run: &Run, index: usize) -> bool {
+        let left = self.code.steps.last().map(|step| step.interface);
+        let strip = &run.strips[index];
+        let starts = [index, index + 1].map(|ray| run.traces[ray].last().map(|ray| ray.point));
+        let [Some(one), Some(two)] = starts else {
+            return false;
+        };
+        let reach = Reach::new(strip, [one, two], self.slack());
+        self.model.is_clear(strip, &reach, self.last_layer(), left)
+    }
+
     pub(crate) fn runs(&self) -> &[Run] {
         &self.runs
     }
 
     /// The ray on its last leg at a parameter in a strip, guided by the impacts of the strip's ends.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn ray_near(&self, run: &Run, index: usize, parameter: f64) -> Option<Landing> {
-        let start = self.start(parameter).ok()?;
-        let (one, two) = (run.traces.get(index)?, run.traces.get(index + 1)?);
-        let share = (parameter - run.parameters[index])
-            / (run.parameters[index + 1] - run.parameters[index]);
+        let (low, high) = (*run.parameters.get(index)?, *run.parameters.get(index + 1)?);
+        let known = (low, *run.normals.get(index)?);
+        let start = self
+            .source
+            .ray_near(parameter, known, self.first_medium())
+            .ok()?;
+        let share = (parameter - low) / (high - low);
+        let count = self.code.steps.len();
+        let guides = run.guides.get(index * count..(index + 1) * count)?;
         let expected = |step: usize| {
-            let (a, b) = (one.impacts[step].parameter, two.impacts[step].parameter);
-            a + share * (b - a)
+            let [a, b, c, d] = guides[step];
+            a + share * (b + share * (c + share * d))
         };
         let guided = self
             .model
@@ -265,180 +342,6 @@ impl Run {
         above
             .saturating_sub(1)
             .min(self.strips.len().saturating_sub(1))
-    }
-}
-
-/// Fills the runs of a fan, ray by ray.
-struct Sampler<'f, 'm> {
-    fan: &'f Fan<'m>,
-    /// Lines are compared inside the circle around the model's box.
-    centre: DVec2,
-    radius: f64,
-    tolerance: f64,
-    run: Run,
-    done: Vec<Run>,
-    count: usize,
-}
-
-impl<'f, 'm> Sampler<'f, 'm> {
-    fn new(fan: &'f Fan<'m>, options: FanOptions) -> Self {
-        let [low, high] = fan.model.corners();
-        Self {
-            fan,
-            centre: 0.5 * (low + high),
-            radius: 0.5 * fan.model.size(),
-            tolerance: options.accuracy * fan.model.size(),
-            run: Run::default(),
-            done: Vec::new(),
-            count: 0,
-        }
-    }
-
-    fn sample(mut self, rays: usize) -> Vec<Run> {
-        let mut parameters: Vec<f64> = (0..=rays).map(|i| i as f64 / rays as f64).collect();
-        // A joint of the source is met from both sides.
-        for joint in self.fan.source.breaks() {
-            parameters.extend([joint - BOUNDARY, joint]);
-        }
-        parameters.retain(|parameter| *parameter >= 0.0);
-        parameters.sort_by(f64::total_cmp);
-        parameters.dedup();
-        let mut previous: Option<Trial> = None;
-        for parameter in parameters {
-            let (trial, trace) = self.attempt(parameter);
-            if let Some(previous) = previous {
-                self.fill(&previous, &trial, 0);
-            }
-            self.push(&trial, trace);
-            previous = Some(trial);
-        }
-        self.finish(None);
-        self.done
-    }
-
-    fn attempt(&self, parameter: f64) -> (Trial, Trace) {
-        match self.fan.attempt(parameter) {
-            Ok(trace) => {
-                let medium = &self.fan.model.media()[self.fan.last_layer()];
-                let ray = trace.legs[trace.legs.len() - 1];
-                let knot = Knot::new(parameter, &ray, medium);
-                ((parameter, Ok(knot)), trace)
-            }
-            Err(failure) => ((parameter, Err(failure)), Trace::default()),
-        }
-    }
-
-    fn push(&mut self, trial: &Trial, trace: Trace) {
-        let (parameter, Ok(knot)) = trial else { return };
-        if let Some(last) = &self.run.last {
-            if last.parameter >= *parameter {
-                return;
-            }
-            self.run.strips.push(Strip::between(last, knot));
-        }
-        self.run.parameters.push(*parameter);
-        self.run.traces.push(trace);
-        self.run.last = Some(*knot);
-        self.count += 1;
-    }
-
-    /// Ends the run, at the end of the source or with a reason.
-    fn finish(&mut self, reason: Option<Error>) {
-        let mut run = std::mem::take(&mut self.run);
-        run.cuts[1] = reason.and_then(|reason| Cut::new(&run, reason, true));
-        if run.parameters.len() > 1 {
-            self.done.push(run);
-        }
-    }
-
-    /// Adds what is between two rays that were tried.
-    fn fill(&mut self, one: &Trial, two: &Trial, depth: u32) {
-        match (&one.1, &two.1) {
-            (Ok(a), Ok(b)) => self.join(a, b),
-            (Ok(a), Err(failure)) => {
-                let (last, trace, error) = self.boundary(a, two.0, failure);
-                if let (_, Ok(b)) = &last {
-                    self.join(a, b);
-                }
-                self.push(&last, trace);
-                self.finish(Some(error));
-            }
-            (Err(failure), Ok(b)) => {
-                let (first, trace, error) = self.boundary(b, one.0, failure);
-                self.push(&first, trace);
-                self.run.cuts[0] = Cut::new(&self.run, error, false);
-                if let (_, Ok(a)) = &first {
-                    self.join(a, b);
-                }
-            }
-            (Err(a), Err(b)) => {
-                let alike = a.step == b.step
-                    && std::mem::discriminant(&a.error) == std::mem::discriminant(&b.error);
-                if depth < if alike { WINDOW_GUESS } else { WINDOW_SEARCH } {
-                    self.halve(one, two, depth);
-                }
-            }
-        }
-    }
-
-    fn halve(&mut self, one: &Trial, two: &Trial, depth: u32) {
-        let (middle, trace) = self.attempt(0.5 * (one.0 + two.0));
-        self.fill(one, &middle, depth + 1);
-        self.push(&middle, trace);
-        self.fill(&middle, two, depth + 1);
-    }
-
-    /// Adds rays between two until their strip is where the rays are; cuts the run where it never is: a ray grazes an
-    /// interface, and the next one meets it farther on.
-    fn join(&mut self, a: &Knot, b: &Knot) {
-        if self.count >= MOST_RAYS {
-            return;
-        }
-        if b.parameter - a.parameter <= 2.0 * BOUNDARY {
-            if a.distance(b, self.centre, self.radius) > self.tolerance {
-                let torn = || Error::Torn {
-                    parameter: a.parameter,
-                };
-                self.finish(Some(torn()));
-                let (again, trace) = self.attempt(b.parameter);
-                self.push(&again, trace);
-                self.run.cuts[0] = Cut::new(&self.run, torn(), false);
-            }
-            return;
-        }
-        let (middle, trace) = self.attempt(0.5 * (a.parameter + b.parameter));
-        match &middle.1 {
-            Ok(knot)
-                if knot.misfit(&Strip::between(a, b), self.centre, self.radius)
-                    <= self.tolerance =>
-            {
-                self.push(&middle, trace);
-            }
-            Ok(knot) => {
-                self.join(a, knot);
-                self.push(&middle, trace);
-                self.join(knot, b);
-            }
-            Err(_) => {
-                self.fill(&(a.parameter, Ok(*a)), &middle, 0);
-                self.fill(&middle, &(b.parameter, Ok(*b)), 0);
-            }
-        }
-    }
-
-    /// The last ray that exists between one that does and a parameter where none does, and what stopped the next one.
-    fn boundary(&self, known: &Knot, mut bad: f64, failure: &Failure) -> (Trial, Trace, Error) {
-        let (mut good, mut trace) = self.attempt(known.parameter);
-        let mut reason = failure.error.clone();
-        while (bad - good.0).abs() > BOUNDARY {
-            let middle = 0.5 * (good.0 + bad);
-            match self.attempt(middle) {
-                (found, its) if found.1.is_ok() => (good, trace) = (found, its),
-                ((_, Err(failure)), _) => (bad, reason) = (middle, failure.error),
-                _ => break,
-            }
-        }
-        (good, trace, reason)
     }
 }
 

@@ -14,6 +14,14 @@ use crate::{Cut, Error, Medium, Ray};
 /// The support function there is the eikonal: the wave with normal N passes X at the time `<N, X> - p(N)`. Propagation adds
 /// the time to the support, a translation of the Bézier lines; a focus is no singularity of it.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "crate::stored::StoredFront",
+        into = "crate::stored::StoredFront"
+    )
+)]
 pub struct Front {
     medium: Medium,
     layer: usize,
@@ -26,6 +34,7 @@ pub struct Front {
 
 /// A piece of a front, at time zero in the unit plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FrontPiece {
     /// Its shape.
     pub shape: PieceShape,
@@ -34,6 +43,14 @@ pub struct FrontPiece {
 
 /// The shape of a piece of a front.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "crate::stored::StoredShape",
+        into = "crate::stored::StoredShape"
+    )
+)]
 pub enum PieceShape {
     /// An arc of class 3.
     Arc(TQuartic),
@@ -48,6 +65,7 @@ pub enum PieceShape {
 
 /// A cusp of a front.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cusp {
     /// The piece on which it lies.
     pub piece: usize,

@@ -4,8 +4,10 @@ use bezier_mass::BezierCurve;
 use glam::{DMat2, DVec2};
 
 use crate::Error;
+use crate::beam::{Part, Wedge};
 use crate::chain::Chain;
 use crate::conic::Conic;
+use crate::strip::{Reach, Strip};
 
 /// Where a ray meets an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,15 +25,24 @@ pub struct Impact {
     pub parameter: f64,
 }
 
+/// A line is followed beyond a box by this share of its size, against rounding.
+const CLIP_MARGIN: f64 = 1e-8;
+
 /// A curve at which a wave is reflected and transmitted.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "crate::stored::StoredInterface",
+        into = "crate::stored::StoredInterface"
+    )
+)]
 pub struct Interface {
     shape: Shape,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 enum Shape {
     Line { point: DVec2, tangent: DVec2 },
     Conic(Conic),
@@ -47,9 +58,14 @@ impl Interface {
         if !(point.is_finite() && direction.is_finite()) {
             return Err(Error::NonFinite { what: "a line" });
         }
-        let tangent = direction.try_normalize().ok_or(Error::ZeroDirection {
-            what: "the direction of a line",
-        })?;
+        // A unit vector stays as it is: a line that is written and read is the same.
+        let tangent = if (direction.length_squared() - 1.0).abs() <= 4.0 * f64::EPSILON {
+            direction
+        } else {
+            direction.try_normalize().ok_or(Error::ZeroDirection {
+                what: "the direction of a line",
+            })?
+        };
         Ok(Self {
             shape: Shape::Line { point, tangent },
         })
@@ -99,7 +115,7 @@ impl Interface {
         Self::conic_about(DVec2::ZERO, form, 0.5 * DVec2::new(d, e), f)
     }
 
-    fn conic_about(
+    pub(crate) fn conic_about(
         centre: DVec2,
         form: DMat2,
         linear: DVec2,
@@ -145,7 +161,7 @@ impl Interface {
     }
 
     /// The impact near a known place, by Newton's method from there; exact for the shapes that are solved in closed form.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn impact_near(
         &self,
@@ -155,8 +171,11 @@ impl Interface {
         guess: f64,
     ) -> Option<Impact> {
         match &self.shape {
+            Shape::Line { point, tangent } => {
+                impact_on_line(*point, *tangent, origin, velocity, after)
+            }
+            Shape::Conic(_) => self.first_impact(origin, velocity, after),
             Shape::Curve(chain) => chain.impact_near(origin, velocity, after, guess),
-            _ => self.first_impact(origin, velocity, after),
         }
     }
 
@@ -173,6 +192,58 @@ impl Interface {
         }
     }
 
+    /// The length of the curve's derivative by the parameter of an impact; none for the shapes without a parameter.
+    pub(crate) fn speed(&self, parameter: f64) -> Option<f64> {
+        match &self.shape {
+            Shape::Curve(chain) => chain.speed(parameter),
+            _ => None,
+        }
+    }
+
+    /// Whether the rays of a strip surely do not meet the interface; where they start on it (`left`), not again.
+    pub(crate) fn is_clear_of(&self, strip: &Strip, reach: &Reach, left: bool) -> bool {
+        match &self.shape {
+            Shape::Line { .. } => left,
+            Shape::Conic(_) => false,
+            Shape::Curve(chain) => chain.is_clear_of(strip, reach, left),
+        }
+    }
+
+    /// Whether the tangents between two impacts are between the tangents there, but for a little.
+    pub(crate) fn is_plain_between(&self, one: &Impact, two: &Impact) -> bool {
+        match &self.shape {
+            Shape::Curve(chain) => chain.is_plain_between(one, two),
+            _ => true,
+        }
+    }
+
+    /// Calls `found` with the parts of the interface in a box that rays of a wedge may meet, or with none where that is not
+    /// known.
+    pub(crate) fn visit_parts(
+        &self,
+        wedge: &Wedge,
+        [low, high]: [DVec2; 2],
+        found: &mut dyn FnMut(Option<Part>),
+    ) {
+        match &self.shape {
+            Shape::Line { point, tangent } => {
+                // One tangent: the box in which the line runs is all that a further leg needs.
+                let Some((start, end)) = clipped(*point, *tangent, low, high) else {
+                    return;
+                };
+                let part = Part {
+                    low: start.min(end),
+                    high: start.max(end),
+                    tangent: tangent.to_angle(),
+                    spread: 0.0,
+                };
+                part.narrowed(start, end, wedge, found);
+            }
+            Shape::Conic(conic) => conic.visit_parts(wedge, [low, high], found),
+            Shape::Curve(chain) => chain.visit_parts(wedge, [low, high], found),
+        }
+    }
+
     /// Calls `found` for every impact later than `after`, in no order.
     #[inline]
     fn visit_impacts(
@@ -184,16 +255,8 @@ impl Interface {
     ) {
         match &self.shape {
             Shape::Line { point, tangent } => {
-                let approach = velocity.perp_dot(*tangent);
-                let time = (*point - origin).perp_dot(*tangent) / approach;
-                if approach != 0.0 && time > after {
-                    found(Impact {
-                        time,
-                        point: origin + time * velocity,
-                        tangent: *tangent,
-                        curvature: 0.0,
-                        parameter: 0.0,
-                    });
+                if let Some(impact) = impact_on_line(*point, *tangent, origin, velocity, after) {
+                    found(impact);
                 }
             }
             Shape::Conic(conic) => conic.visit_impacts(origin, velocity, after, found),
@@ -241,6 +304,64 @@ impl Interface {
                 .collect(),
         }
     }
+}
+
+#[cfg(feature = "serde")]
+impl From<Interface> for crate::stored::StoredInterface {
+    fn from(interface: Interface) -> Self {
+        match interface.shape {
+            Shape::Line { point, tangent } => Self::Line {
+                point,
+                direction: tangent,
+            },
+            Shape::Conic(conic) => conic.into(),
+            Shape::Curve(chain) => Self::Curve {
+                pieces: chain.into_curves(),
+            },
+        }
+    }
+}
+
+/// The ends of a line in a box, if it passes through; to a margin beyond it.
+fn clipped(point: DVec2, tangent: DVec2, low: DVec2, high: DVec2) -> Option<(DVec2, DVec2)> {
+    let margin = CLIP_MARGIN * (high - low);
+    let (one, two) = (
+        (low - margin - point) / tangent,
+        (high + margin - point) / tangent,
+    );
+    // Along an axis one of the coordinates bounds nothing, or is outside.
+    let (near, far) = (one.min(two), one.max(two));
+    let inside = |near: f64, far: f64| {
+        if near.is_nan() || far.is_nan() {
+            None
+        } else {
+            Some((near, far))
+        }
+    };
+    let (x, y) = (inside(near.x, far.x), inside(near.y, far.y));
+    let infinite = (f64::NEG_INFINITY, f64::INFINITY);
+    let (x, y) = (x.unwrap_or(infinite), y.unwrap_or(infinite));
+    let (from, to) = (x.0.max(y.0), x.1.min(y.1));
+    (from < to).then(|| (point + from * tangent, point + to * tangent))
+}
+
+#[inline]
+fn impact_on_line(
+    point: DVec2,
+    tangent: DVec2,
+    origin: DVec2,
+    velocity: DVec2,
+    after: f64,
+) -> Option<Impact> {
+    let approach = velocity.perp_dot(tangent);
+    let time = (point - origin).perp_dot(tangent) / approach;
+    (approach != 0.0 && time > after).then(|| Impact {
+        time,
+        point: origin + time * velocity,
+        tangent,
+        curvature: 0.0,
+        parameter: 0.0,
+    })
 }
 
 /// The largest distance in y between an interface and a function, looked for at 1,000 places.

@@ -53,6 +53,7 @@
 //! | [`Cut`] | where an illuminated stretch or a front ends, and why |
 //! | [`Front`] | a G1 spline of class-3 arcs: snapshots, cusps, caustics, arrivals |
 //! | [`DualSurface`] | fronts in space by their support function |
+//! | [`FrontPatches`] | a front reflected in a quadric, as dual patches that join smoothly |
 //!
 //! # Accuracy
 //!
@@ -60,16 +61,23 @@
 //! conservation of the slowness along the interface. A fan keeps its rays as strips, dual cubic Bézier curves of lines; a
 //! receiver's distances from their control lines tell how many rays pass it, and one exact ray, with its own derivatives, the
 //! time of each. Fronts are fitted to a tolerance that is measured on other exact rays than those that were fitted; a sliver
-//! that no arc can follow is left out and is a [`Cut`]. What is not certified: a window of rays between two neighbours that
-//! both fail, and two arrivals closer to their caustic than [`FanOptions::accuracy`].
+//! that no arc can follow is left out and is a [`Cut`].
 //!
-//! In space [`DualSurface`] propagates and is reflected in planes exactly; behind a quadric mirror a [`SampledSurface`] is a
-//! grid of exact rays. Its [`SampledSurface::normality_defect`] measures how far they are from being normal to one surface.
+//! Between rays that fail, enclosures of whole intervals of rays ([`Fan::unsearched`]) tell that none gets through, or the
+//! interval is halved: a window of rays wider than 2^-20 of the source's parameter is found, or the stretch that may hide it is
+//! listed. What is not certified: sources that are curves and rational indicatrices have no enclosures; a run of rays is
+//! checked at its rays, in the middles between them and for the tangents of an interface's pieces in between, not for obstacles
+//! smaller than that in the way to a later interface; two arrivals closer to their caustic than [`FanOptions::accuracy`].
+//!
+//! In space [`DualSurface`] propagates and is reflected in planes exactly. Behind a quadric mirror a [`SampledSurface`] is a
+//! grid of exact rays, and [`FrontPatches`] are dual bicubic patches over the outgoing normal, fitted to a tolerance that is
+//! measured on other rays: G1 by construction, with exact offsets at all times.
 //!
 //! # Left open
 //!
 //! Finding a reflector from its front; fronts of class-3 arcs in media whose indicatrix is no ellipse (their rays, arrivals
-//! and exact propagation by `ph_curves::IsoperimetricArc` work); re-approximation of fronts in space by G1 patches.
+//! and exact propagation by `ph_curves::IsoperimetricArc` work); refraction in space, and patches beyond a fold of the
+//! reflected normals.
 //!
 //! # References
 //!
@@ -81,6 +89,7 @@
 struct ReadmeDoctests;
 
 mod arrival;
+mod beam;
 mod chain;
 mod code;
 mod conic;
@@ -94,11 +103,16 @@ mod interface;
 mod interpolate;
 mod medium;
 mod model;
+mod piece;
 mod ray;
 mod receivers;
+mod sample;
+mod scatter;
 mod snapshot;
 mod source;
 mod space;
+#[cfg(feature = "serde")]
+mod stored;
 mod strip;
 mod trace;
 
@@ -116,5 +130,7 @@ pub use model::Model;
 pub use ray::{Mode, Ray};
 pub use receivers::{first_arrival, section, travel_time_table};
 pub use source::Source;
-pub use space::{DualSurface, Mirror, SampledSurface, SpacePoint};
+pub use space::{
+    DualSurface, FrontPatches, Mirror, Omission, PatchOptions, SampledSurface, SpacePoint,
+};
 pub use trace::Trace;

@@ -20,15 +20,26 @@ use crate::Error;
 /// with the outward normal N, and `<s, V> = 1`.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "crate::stored::StoredMedium",
+        into = "crate::stored::StoredMedium"
+    )
+)]
 pub struct Medium {
     kind: Kind,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 enum Kind {
-    /// The map that takes velocities to unit vectors, and its inverse. A multiple of the identity for an isotropic medium.
+    Isotropic {
+        speed: f64,
+    },
+    /// The map that takes velocities to unit vectors, and its inverse.
     Elliptical {
+        semi_axes: [f64; 2],
+        angle: f64,
         to_unit: DMat2,
         from_unit: DMat2,
     },
@@ -41,7 +52,20 @@ impl Medium {
     /// # Errors
     /// [`Error::BadSpeed`] unless the speed is positive and finite.
     pub fn isotropic(speed: f64) -> Result<Self, Error> {
-        Self::elliptical(speed, speed, 0.0)
+        Self::check_speed(speed)?;
+        Ok(Self {
+            kind: Kind::Isotropic { speed },
+        })
+    }
+
+    /// A speed whose square and inverse square are numbers, too.
+    fn check_speed(speed: f64) -> Result<(), Error> {
+        let square = speed * speed;
+        if speed > 0.0 && square.is_finite() && square.recip().is_finite() {
+            Ok(())
+        } else {
+            Err(Error::BadSpeed { speed })
+        }
     }
 
     /// A medium whose indicatrix is an ellipse with semi-axes `a` at `angle` (radians) to the x axis, and `b` across.
@@ -49,24 +73,22 @@ impl Medium {
     /// # Errors
     /// [`Error::BadSpeed`] unless both are positive and finite; [`Error::NonFinite`] for the angle.
     pub fn elliptical(a: f64, b: f64, angle: f64) -> Result<Self, Error> {
-        for speed in [a, b] {
-            if !(speed > 0.0 && speed.is_finite() && speed.recip().is_finite()) {
-                return Err(Error::BadSpeed { speed });
-            }
-        }
+        Self::check_speed(a)?;
+        Self::check_speed(b)?;
         if !angle.is_finite() {
             return Err(Error::NonFinite {
                 what: "the angle of an indicatrix",
             });
         }
-        let turn = if a == b {
-            DMat2::IDENTITY
-        } else {
-            DMat2::from_angle(angle)
-        };
+        if a == b {
+            return Self::isotropic(a);
+        }
+        let turn = DMat2::from_angle(angle);
         let stretch = |x, y| turn * DMat2::from_diagonal(DVec2::new(x, y)) * turn.transpose();
         Ok(Self {
             kind: Kind::Elliptical {
+                semi_axes: [a, b],
+                angle,
                 to_unit: stretch(a.recip(), b.recip()),
                 from_unit: stretch(a, b),
             },
@@ -86,6 +108,7 @@ impl Medium {
     #[must_use]
     pub fn unit_plane(&self) -> Option<DMat2> {
         match self.kind {
+            Kind::Isotropic { speed } => Some(DMat2::from_diagonal(DVec2::splat(speed.recip()))),
             Kind::Elliptical { to_unit, .. } => Some(to_unit),
             Kind::Rational(_) => None,
         }
@@ -95,33 +118,36 @@ impl Medium {
     #[must_use]
     pub fn from_unit_plane(&self) -> Option<DMat2> {
         match self.kind {
+            Kind::Isotropic { speed } => Some(DMat2::from_diagonal(DVec2::splat(speed))),
             Kind::Elliptical { from_unit, .. } => Some(from_unit),
             Kind::Rational(_) => None,
         }
     }
 
     /// The speed of a front in the direction of its unit normal: the support of the indicatrix.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn front_speed(&self, normal: DVec2) -> f64 {
         match &self.kind {
+            Kind::Isotropic { speed } => *speed,
             Kind::Elliptical { from_unit, .. } => (*from_unit * normal).length(),
             Kind::Rational(indicatrix) => indicatrix.jet(normal.to_angle()).support,
         }
     }
 
     /// The slowness of a front with this unit normal.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn slowness(&self, normal: DVec2) -> DVec2 {
         normal / self.front_speed(normal)
     }
 
     /// The velocity of a ray with this slowness.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn group_velocity(&self, slowness: DVec2) -> DVec2 {
         match &self.kind {
+            Kind::Isotropic { speed } => speed * speed * slowness,
             // V = M² s: the gradient of |M s|²/2. The maps are symmetric.
             Kind::Elliptical { from_unit, .. } => *from_unit * (*from_unit * slowness),
             Kind::Rational(indicatrix) => indicatrix.contact(slowness.to_angle()).point,
@@ -129,11 +155,11 @@ impl Medium {
     }
 
     /// The derivative of the group velocity in the direction `change` of the slowness, which is tangent to the slowness curve.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn group_velocity_change(&self, slowness: DVec2, change: DVec2) -> DVec2 {
         match &self.kind {
-            Kind::Elliptical { .. } => self.group_velocity(change),
+            Kind::Isotropic { .. } | Kind::Elliptical { .. } => self.group_velocity(change),
             Kind::Rational(indicatrix) => {
                 let turning = slowness.perp_dot(change) / slowness.length_squared();
                 let contact = indicatrix.contact(slowness.to_angle());
@@ -158,6 +184,7 @@ impl Medium {
             });
         }
         match &self.kind {
+            Kind::Isotropic { speed } => Ok(direction.normalize() / *speed),
             Kind::Elliptical { to_unit, .. } => Ok(*to_unit * (*to_unit * direction).normalize()),
             Kind::Rational(indicatrix) => {
                 let plane = ph_curves::MinkowskiPlane::new(ph_curves::Indicatrix::try_new(
@@ -168,12 +195,45 @@ impl Medium {
         }
     }
 
+    /// The largest length of a slowness, and of its derivative by the angle of the normal; none for a rational indicatrix.
+    pub(crate) fn slowness_bounds(&self) -> Option<[f64; 2]> {
+        let [longer, shorter] = self.sorted_axes()?;
+        // s = N / P with P² = a² cos² + b² sin² in the axes: |P'| is at most (a² - b²) / (2 P).
+        let change = (longer - shorter) * (longer + shorter) / (2.0 * shorter * shorter * shorter);
+        Some([shorter.recip(), shorter.recip() + change])
+    }
+
+    /// By how much more the normal of a ray can turn than its direction.
+    pub(crate) fn stretch(&self) -> f64 {
+        self.sorted_axes()
+            .map_or(f64::INFINITY, |[longer, shorter]| {
+                (longer / shorter).powi(2)
+            })
+    }
+
+    /// The semi-axes of the indicatrix, the longer one first.
+    fn sorted_axes(&self) -> Option<[f64; 2]> {
+        match self.kind {
+            Kind::Isotropic { speed } => Some([speed, speed]),
+            Kind::Elliptical {
+                semi_axes: [a, b], ..
+            } => Some([a.max(b), a.min(b)]),
+            Kind::Rational(_) => None,
+        }
+    }
+
     /// The travel time along a vector: its norm.
     ///
     /// # Errors
     /// [`Error::NonFinite`].
     pub fn travel_time(&self, vector: DVec2) -> Result<f64, Error> {
+        if !vector.is_finite() {
+            return Err(Error::NonFinite {
+                what: "the vector of a travel time",
+            });
+        }
         match &self.kind {
+            Kind::Isotropic { speed } => Ok(vector.length() / speed),
             Kind::Elliptical { to_unit, .. } => Ok((*to_unit * vector).length()),
             Kind::Rational(_) if vector == DVec2::ZERO => Ok(0.0),
             Kind::Rational(_) => Ok(self.slowness_along(vector)?.dot(vector)),
@@ -185,7 +245,7 @@ impl Medium {
     ///
     /// # Errors
     /// [`Error::TotalReflection`] (with the place `at`) if the component is too large.
-    #[inline]
+    #[inline(always)]
     pub fn slowness_behind(
         &self,
         tangential: f64,
@@ -198,6 +258,14 @@ impl Medium {
             tangential_slowness: tangential,
         };
         match &self.kind {
+            Kind::Isotropic { speed } => {
+                let slowness = speed.recip();
+                let square = (slowness - tangential) * (slowness + tangential);
+                if square < 0.0 || square.is_nan() {
+                    return Err(none);
+                }
+                Ok(tangential * tangent + square.sqrt() * normal)
+            }
             Kind::Elliptical { from_unit, .. } => {
                 // |M (c τ + q ν)| = 1, and the root with <V, ν> > 0 is the larger one.
                 let (along, across) = (*from_unit * tangent, *from_unit * normal);
@@ -232,6 +300,21 @@ impl Medium {
                 }
                 Err(none)
             }
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<Medium> for crate::stored::StoredMedium {
+    fn from(medium: Medium) -> Self {
+        match medium.kind {
+            Kind::Isotropic { speed } => Self::Isotropic { speed },
+            Kind::Elliptical {
+                semi_axes, angle, ..
+            } => Self::Elliptical { semi_axes, angle },
+            Kind::Rational(indicatrix) => Self::Rational {
+                arcs: indicatrix.arcs().to_vec(),
+            },
         }
     }
 }

@@ -7,7 +7,14 @@ use crate::{Error, Interface, Medium};
 /// Media one below the other with an interface between each two, inside a box; or one medium inside a closed interface
 /// in another. Medium `k` lies between the interfaces `k - 1` and `k`.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "crate::stored::StoredModel",
+        into = "crate::stored::StoredModel"
+    )
+)]
 pub struct Model {
     low: DVec2,
     high: DVec2,

@@ -1,4 +1,7 @@
 //! Rays with their neighbours: Snell's law, and how a bundle spreads.
+//!
+//! What happens to a ray on its way is inlined always, here and along the whole way: a ray is eighty bytes, and copying it
+//! from call to call is a fifth of the time of an arrival.
 
 use glam::DVec2;
 
@@ -45,7 +48,7 @@ impl Ray {
     }
 
     /// As [`Ray::from_point`], by the unit normal.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn radiating(point: DVec2, normal: DVec2, medium: &Medium) -> Self {
         let slowness = medium.slowness(normal);
@@ -149,7 +152,7 @@ impl Ray {
     }
 
     /// The ray at an impact, its derivatives taken along the interface.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn arrive(&self, impact: &Impact, medium: &Medium) -> Self {
         let velocity = medium.group_velocity(self.slowness);
@@ -173,7 +176,7 @@ impl Ray {
     ///
     /// # Errors
     /// [`Error::TotalReflection`] if nothing is transmitted.
-    #[inline]
+    #[inline(always)]
     pub fn scatter(
         &self,
         impact: &Impact,

@@ -1,110 +1,181 @@
 //! Many receivers at once: first arrivals, travel-time tables and sections.
+//!
+//! ```text
+//!    +---+---+  receivers lie in cells of a grid, and cells in larger cells; only strips of rays
+//!    | .\|   |  that may pass a cell are followed into its parts. In the smallest cells a strip
+//!    |---\---|  meets a few receivers one after the other: all that it needs is at hand.
+//!    |. .|\ .|
+//!    +---+---+
+//! ```
+
+use std::ops::Range;
 
 use glam::DVec2;
 
+use crate::scatter::{Cell, Scatter};
 use crate::{Arrival, Fan};
 
 /// So few receivers are answered one by one.
-const FEW: usize = 12;
-/// Receivers are divided this often: they may be scattered over many scales.
+const FEW: usize = 16;
+
+/// A group is divided this often: receivers may be scattered over many scales.
 const MOST_DIVISIONS: u32 = 48;
 
-/// A strip of a fan: its run, and its place in that.
-type StripPlace = (u32, u32);
+/// A strip of a fan: its run, its place in that, and its number.
+#[derive(Clone, Copy)]
+struct StripPlace {
+    run: u32,
+    index: u32,
+    number: u32,
+}
+
+/// What is known of a strip in a batch.
+#[derive(Clone, Copy, PartialEq)]
+enum Clear {
+    Unknown,
+    Yes,
+    No,
+}
+
+/// Many receivers, answered together.
+struct Batch<'f, 'm, F> {
+    fan: &'f Fan<'m>,
+    scatter: Scatter,
+    /// The strips that may pass the present cell, behind those of the cells around it.
+    candidates: Vec<StripPlace>,
+    /// Whether a strip's rays surely meet nothing on their last leg.
+    clear: Vec<Clear>,
+    slack: f64,
+    found: F,
+}
 
 impl Fan<'_> {
     /// Calls `found` with the number of a receiver and an arrival for all arrivals at all receivers, in no order.
     ///
     /// Receivers are divided into groups, and only those strips of rays are followed into a group that may pass through it:
     /// the cost of a receiver hardly depends on the number of rays.
-    pub fn visit_arrivals(&self, receivers: &[DVec2], mut found: impl FnMut(usize, Arrival)) {
-        let mut places: Vec<(DVec2, usize)> = receivers
-            .iter()
-            .enumerate()
-            .filter(|(_, point)| point.is_finite())
-            .map(|(number, point)| (*point, number))
-            .collect();
-        let strips = self.runs().iter().zip(0..).flat_map(|(run, number)| {
-            (0..run.strips.len() as u32).map(move |index| (number, index))
-        });
-        let mut candidates: Vec<StripPlace> = strips.collect();
+    pub fn visit_arrivals(&self, receivers: &[DVec2], found: impl FnMut(usize, Arrival)) {
+        let mut candidates = Vec::new();
+        for (run, number) in self.runs().iter().zip(0..) {
+            for index in 0..run.strips.len() as u32 {
+                candidates.push(StripPlace {
+                    run: number,
+                    index,
+                    number: candidates.len() as u32,
+                });
+            }
+        }
         let all = candidates.len();
-        self.divide(&mut places, &mut candidates, 0..all, 0, &mut found);
-    }
-
-    /// Answers a group of receivers from a range of the candidates, which grow by the groups inside it and shrink again.
-    fn divide(
-        &self,
-        places: &mut [(DVec2, usize)],
-        candidates: &mut Vec<StripPlace>,
-        range: std::ops::Range<usize>,
-        depth: u32,
-        found: &mut impl FnMut(usize, Arrival),
-    ) {
-        let Some((first, _)) = places.first() else {
-            return;
-        };
-        let (low, high) = places
-            .iter()
-            .fold((*first, *first), |(low, high), (point, _)| {
-                (low.min(*point), high.max(*point))
-            });
-        let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
-        let reach = half.length() + self.slack();
-        let start = candidates.len();
-        for i in range {
-            let (run, index) = candidates[i];
-            if self.runs()[run as usize].strips[index as usize].may_pass(centre, reach) {
-                candidates.push((run, index));
-            }
+        let scatter = Scatter::new(receivers, FEW);
+        let (root, low, size) = scatter.root();
+        Batch {
+            fan: self,
+            scatter,
+            clear: vec![Clear::Unknown; all],
+            candidates,
+            slack: self.slack(),
+            found,
         }
-        let end = candidates.len();
-        if places.len() <= FEW || depth >= MOST_DIVISIONS || half == DVec2::ZERO {
-            for (point, number) in places.iter() {
-                for &(run, index) in &candidates[start..end] {
-                    let run = &self.runs()[run as usize];
-                    self.meet(run, index as usize, *point, &mut |arrival| {
-                        found(*number, arrival);
-                    });
-                }
-            }
-        } else if end > start {
-            let split = if half.x > half.y {
-                partition(places, |point| point.x < centre.x)
-            } else {
-                partition(places, |point| point.y < centre.y)
-            };
-            let (left, right) = places.split_at_mut(split);
-            self.divide(left, candidates, start..end, depth + 1, found);
-            self.divide(right, candidates, start..end, depth + 1, found);
-        }
-        candidates.truncate(start);
+        .cell(root, low, size, 0..all);
     }
 
     /// The first arrivals at all receivers, in their order.
     #[must_use]
     pub fn first_arrivals(&self, receivers: &[DVec2]) -> Vec<Option<Arrival>> {
-        let mut firsts: Vec<Option<Arrival>> = vec![None; receivers.len()];
-        self.visit_arrivals(receivers, |number, arrival| {
-            let first = &mut firsts[number];
-            if first.is_none_or(|known| arrival.time < known.time) {
-                *first = Some(arrival);
-            }
-        });
-        firsts
+        in_parts(receivers, |part| {
+            let mut firsts: Vec<Option<Arrival>> = vec![None; part.len()];
+            self.visit_arrivals(part, |number, arrival| {
+                let first = &mut firsts[number];
+                if first.is_none_or(|known| arrival.time < known.time) {
+                    *first = Some(arrival);
+                }
+            });
+            firsts
+        })
     }
 }
 
-/// Moves the places with a property to the front; how many there are.
-fn partition(places: &mut [(DVec2, usize)], is_first: impl Fn(DVec2) -> bool) -> usize {
-    let mut count = 0;
-    for i in 0..places.len() {
-        if is_first(places[i].0) {
-            places.swap(i, count);
-            count += 1;
+impl<F: FnMut(usize, Arrival)> Batch<'_, '_, F> {
+    /// Answers the receivers of a cell of the grid from a range of the candidates.
+    fn cell(&mut self, cell: Cell, low: DVec2, size: DVec2, range: Range<usize>) {
+        let places = self.scatter.places(cell);
+        if places.is_empty() {
+            return;
+        }
+        let start = self.candidates.len();
+        self.narrow(low + 0.5 * size, 0.5 * size.length(), range);
+        let range = start..self.candidates.len();
+        if !range.is_empty() {
+            match cell.parts() {
+                Some(parts) if places.len() > FEW => {
+                    let half = 0.5 * size;
+                    for (part, corner) in parts.into_iter().zip(Cell::CORNERS) {
+                        self.cell(part, low + half * corner, half, range.clone());
+                    }
+                }
+                _ => self.group(places, range, 0),
+            }
+        }
+        self.candidates.truncate(start);
+    }
+
+    /// Adds those of a range of the candidates once more that may pass a disc.
+    fn narrow(&mut self, centre: DVec2, radius: f64, range: Range<usize>) {
+        let reach = radius + self.slack;
+        for i in range {
+            let candidate = self.candidates[i];
+            let run = &self.fan.runs()[candidate.run as usize];
+            if run.strips[candidate.index as usize].may_pass(centre, reach) {
+                self.candidates.push(candidate);
+            }
         }
     }
-    count
+
+    /// Answers receivers that the grid does not divide any more: dividing them in two, while they are many and apart.
+    fn group(&mut self, places: Range<usize>, range: Range<usize>, depth: u32) {
+        if places.len() <= FEW || depth >= MOST_DIVISIONS {
+            return self.answer(places, range);
+        }
+        let (low, high) = self.scatter.bounds(places.clone());
+        if low == high {
+            return self.answer(places, range);
+        }
+        let start = self.candidates.len();
+        self.narrow(0.5 * (low + high), 0.5 * (high - low).length(), range);
+        let range = start..self.candidates.len();
+        if !range.is_empty() {
+            let middle = self.scatter.divide(places.clone(), low, high);
+            self.group(places.start..middle, range.clone(), depth + 1);
+            self.group(middle..places.end, range, depth + 1);
+        }
+        self.candidates.truncate(start);
+    }
+
+    /// Answers a few receivers, strip after strip.
+    fn answer(&mut self, places: Range<usize>, range: Range<usize>) {
+        for candidate in &self.candidates[range] {
+            let run = &self.fan.runs()[candidate.run as usize];
+            let index = candidate.index as usize;
+            let clear = &mut self.clear[candidate.number as usize];
+            for &(point, receiver) in self.scatter.slice(places.clone()) {
+                let Some(distances) = run.strips[index].distances_within(point, self.slack) else {
+                    continue;
+                };
+                if *clear == Clear::Unknown {
+                    *clear = if self.fan.is_clear(run, index) {
+                        Clear::Yes
+                    } else {
+                        Clear::No
+                    };
+                }
+                let is_clear = *clear == Clear::Yes;
+                self.fan
+                    .follow(run, index, is_clear, distances, point, &mut |arrival| {
+                        (self.found)(receiver as usize, arrival);
+                    });
+            }
+        }
+    }
 }
 
 /// The first arrival at a point over several fans (one a code), and which of them brings it.

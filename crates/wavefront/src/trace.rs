@@ -2,10 +2,12 @@
 
 use glam::DVec2;
 
+use crate::strip::{Reach, Strip};
 use crate::{Code, Error, Impact, Model, Ray};
 
 /// A ray at its source and after each step of a code, with the impacts in between.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Trace {
     /// The ray as it starts each leg; one more than the steps.
     pub legs: Vec<Ray>,
@@ -157,7 +159,7 @@ impl Model {
 
     /// A ray near traced ones, by Newton's method on each interface from the expected parameters of the impacts: quick, and
     /// none where the neighbours are no guide (a grazing ray, total reflection).
-    #[inline]
+    #[inline(always)]
     pub(crate) fn trace_near(
         &self,
         start: Ray,
@@ -191,14 +193,24 @@ impl Model {
         Some(landing)
     }
 
-    /// Whether a wave on its last leg reaches `point` without meeting a boundary of its layer before.
+    /// Whether a wave on its last leg comes to `point`, which lies before it, without meeting a boundary of its layer.
     #[inline]
-    pub(crate) fn reaches(&self, landing: &Landing, layer: usize, point: DVec2) -> bool {
-        let from = landing.ray.point;
-        let velocity = self.media()[layer].group_velocity(landing.ray.slowness);
-        velocity.dot(point - from) > 0.0
-            && !self
-                .boundaries(layer)
-                .any(|boundary| self.blocks(boundary, from, point, landing.left))
+    pub(crate) fn is_unblocked(&self, landing: &Landing, layer: usize, point: DVec2) -> bool {
+        !self
+            .boundaries(layer)
+            .any(|boundary| self.blocks(boundary, landing.ray.point, point, landing.left))
+    }
+
+    /// Whether all rays of a strip in `layer`, which have left the interface `left`, surely meet no boundary of the layer.
+    pub(crate) fn is_clear(
+        &self,
+        strip: &Strip,
+        reach: &Reach,
+        layer: usize,
+        left: Option<usize>,
+    ) -> bool {
+        self.boundaries(layer).all(|boundary| {
+            self.interfaces()[boundary].is_clear_of(strip, reach, left == Some(boundary))
+        })
     }
 }

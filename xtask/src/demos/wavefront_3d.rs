@@ -2,12 +2,12 @@
 //!
 //! What one sees: upper left an orange ellipsoid, the front at time zero. Four square sheets, blue and growing, are parts of
 //! its offsets on their way down into a grey bowl, a paraboloid. To the right, four sheets in red tones rise again: they
-//! shrink to something like a line where they pass the caustic, and open again turned over. Thin grey tubes
-//! are the four corner rays and the middle one.
+//! shrink to something like a line where they pass the caustic, and open again turned over. They are smooth patches, fine lines
+//! along some of their edges. Thin grey tubes are the rays through their corners.
 
-use anyhow::Result;
-use glam::{DMat3, DVec3, dvec3};
-use wavefront::{DualSurface, Mirror, SampledSurface, SpacePoint};
+use anyhow::{Context as _, Result};
+use glam::{DMat3, DVec2, DVec3, dvec2, dvec3};
+use wavefront::{DualSurface, FrontPatches, Mirror, PatchOptions, SampledSurface, SpacePoint};
 
 use crate::color::{BLUE, Color, GREY, ORANGE, SKY, VERMILION, YELLOW};
 use crate::demo::{Context, Demo};
@@ -25,6 +25,11 @@ pub(super) struct Wavefront3d {
 /// The ellipsoid from which the wave starts: its centre and half axes along the coordinates.
 const CENTRE: DVec3 = dvec3(-2.3, 0.0, 2.6);
 const AXES: DVec3 = dvec3(0.5, 0.42, 0.34);
+/// The ways that the drawn fronts have run, down into the bowl and up again.
+const FALLING: [f64; 4] = [0.75, 1.3, 1.85, 2.4];
+const RISING: [f64; 4] = [4.2, 5.1, 6.0, 6.9];
+/// The patches cover this share of the beam's normals.
+const INSET: f64 = 0.8;
 /// The bowl is z = BEND (x² + y²).
 const BEND: f64 = 0.2;
 
@@ -63,7 +68,23 @@ impl Demo for Wavefront3d {
             (coarse / fine).log2(),
             Target::AtLeast(1.8),
         );
-        self.draw(context, &front)
+        let tolerance = context.pick(1e-6, 1e-4);
+        let patches = self.patches(&front, tolerance)?;
+        let (independent, compared) = self.patch_error(&front, &patches, count)?;
+        context.number(
+            "patch_max_error",
+            independent,
+            Target::AtMost(2.0 * tolerance),
+        );
+        context.number("patch_rays_compared", compared, Target::AtLeast(50.0));
+        let bent = RISING.map(|run| patches.offset(run).joint_errors(1).0);
+        context.number(
+            "patch_g1_max_angle_rad",
+            bent.into_iter().fold(0.0, f64::max),
+            Target::AtMost(1e-8),
+        );
+        context.number("patches", patches.cells().count(), Target::AtLeast(16.0));
+        self.draw(context, &front, &patches)
     }
 }
 
@@ -189,10 +210,65 @@ impl Wavefront3d {
         Ok(largest)
     }
 
-    fn draw(&self, context: &mut Context, front: &DualSurface) -> Result<()> {
-        let count = context.pick(180, 48);
-        let incoming = self.beam(front, count)?;
-        let reflected = incoming.reflect(&bowl()?)?;
+    /// The reflected front as smooth patches, over the square of normals inside those of the beam.
+    fn patches(&self, front: &DualSurface, tolerance: f64) -> Result<FrontPatches> {
+        let corners = self.beam(front, 3)?.reflect(&bowl()?)?;
+        let middle = corners.rays()[4].normal;
+        // The stereographic coordinate of a normal at an angle is the tangent of half of it.
+        let half = |ray: &SpacePoint| (0.5 * ray.normal.angle_between(middle)).tan();
+        let sides = [1, 3, 5, 7].map(|side| half(&corners.rays()[side]));
+        // Towards one side of the beam the normals fold.
+        let half_width = INSET * sides.into_iter().fold(f64::INFINITY, f64::min);
+        let options = PatchOptions {
+            tolerance,
+            ..PatchOptions::default()
+        };
+        let aim = -CENTRE.normalize();
+        let patches = FrontPatches::reflected(front, &bowl()?, aim, half_width, options)?;
+        Ok(patches)
+    }
+
+    /// The largest distance of the patches, at all times that are drawn, from rays that are traced by bisection from normals of
+    /// their own; and how many rays that are.
+    fn patch_error(
+        &self,
+        front: &DualSurface,
+        patches: &FrontPatches,
+        count: usize,
+    ) -> Result<(f64, usize)> {
+        let moved = RISING.map(|run| patches.offset(run));
+        let (mut largest, mut compared) = (0.0_f64, 0);
+        for start in self.beam(front, count)?.rays() {
+            let hit = bowl_hit(*start);
+            let facing = dvec3(-2.0 * BEND * hit.x, -2.0 * BEND * hit.y, 1.0).normalize();
+            let normal = start.normal - 2.0 * start.normal.dot(facing) * facing;
+            let Some((cell, share)) = patches.cell_of(normal) else {
+                continue;
+            };
+            compared += 1;
+            for (front, run) in moved.iter().zip(RISING) {
+                let exact = hit + (run - hit.distance(start.point)) * normal;
+                let point = front.point(cell, share).context("the patch is there")?;
+                largest = largest.max(point.distance(exact));
+            }
+        }
+        Ok((largest, compared))
+    }
+
+    fn draw(
+        &self,
+        context: &mut Context,
+        front: &DualSurface,
+        patches: &FrontPatches,
+    ) -> Result<()> {
+        // The part of the incoming front that is reflected to the patches.
+        let last = patches.columns();
+        let nodes = (0..=last).flat_map(|row| (0..=last).map(move |column| [column, row]));
+        let normals = nodes
+            .map(|node| patches.incoming_normal(node))
+            .collect::<Option<Vec<_>>>()
+            .context("the beam is too wide: its normals fold")?;
+        let moved = RISING.map(|run| patches.offset(run));
         let scene = |tolerance: f64| -> Result<Scene> {
             let mut scene = Scene::new();
             let radius = 1.9;
@@ -215,18 +291,32 @@ impl Wavefront3d {
                 (front.point(normal), normal)
             };
             scene.add(Mesh::surface(body, |_| tolerance), Material::glossy(ORANGE))?;
-            for (i, run) in [0.75, 1.3, 1.85, 2.4].into_iter().enumerate() {
+            for (i, run) in FALLING.into_iter().enumerate() {
                 let color = SKY.mix(BLUE, i as f32 / 3.0);
-                scene.add(sheet(&incoming.offset(run)), Material::glossy(color))?;
+                let moved = front.offset(run);
+                let points = normals.iter().map(|normal| moved.point(*normal)).collect();
+                let sheet = Mesh::from_rows(last + 1, points, normals.clone());
+                scene.add(sheet, Material::glossy(color))?;
             }
-            for (i, run) in [4.2, 5.1, 6.0, 6.9].into_iter().enumerate() {
+            for (i, front) in moved.iter().enumerate() {
                 let color = YELLOW.mix(VERMILION, 0.35 + 0.65 * i as f32 / 3.0);
-                scene.add(sheet(&reflected.offset(run)), Material::glossy(color))?;
+                scene.add(patched(front), Material::glossy(color))?;
+                scene.add(edges(front), Material::matte(GREY.mix(color, 0.3)))?;
             }
-            for index in [0, count - 1, count * (count - 1), count * count - 1] {
-                let (start, end) = (incoming.rays()[index], reflected.offset(6.9).rays()[index]);
-                let path = [start.point, bowl_hit(start), end.point];
-                scene.add(Mesh::tube(&path, 0.012, false), Material::matte(GREY))?;
+            for corner in [[0, 0], [1, 0], [0, 1], [1, 1]] {
+                let node = corner.map(|end| end * last);
+                let normal = patches
+                    .incoming_normal(node)
+                    .context("a corner has a ray")?;
+                let start = SpacePoint {
+                    point: front.point(normal),
+                    normal,
+                };
+                let cell = corner.map(|end| end * (last - 1));
+                let share = dvec2(corner[0] as f64, corner[1] as f64);
+                let end = moved[3].point(cell, share).context("and a patch")?;
+                let path = [start.point, bowl_hit(start), end];
+                scene.add(Mesh::tube(&path, 0.009, false), Material::matte(GREY))?;
             }
             scene.ground_below();
             Ok(scene)
@@ -261,11 +351,37 @@ fn bowl_hit(ray: SpacePoint) -> DVec3 {
     ray.point + 0.5 * (low + high) * ray.normal
 }
 
-fn sheet(surface: &SampledSurface) -> Mesh {
-    let (points, normals) = surface
-        .rays()
-        .iter()
-        .map(|ray| (ray.point, ray.normal))
-        .unzip();
-    Mesh::from_rows(surface.columns(), points, normals)
+/// All patches as one mesh.
+fn patched(front: &FrontPatches) -> Mesh {
+    // A few hundred facets across, whatever the number of patches.
+    let steps = (256 / front.columns()).max(1) as u32;
+    let patch = |cell: [usize; 2]| {
+        let (mut points, mut normals) = (Vec::new(), Vec::new());
+        for j in 0..=steps {
+            for i in 0..=steps {
+                let share = dvec2(f64::from(i), f64::from(j)) / f64::from(steps);
+                points.extend(front.point(cell, share));
+                normals.push(front.normal(front.coordinates(cell, share)));
+            }
+        }
+        Mesh::from_rows(steps as usize + 1, points, normals)
+    };
+    Mesh::merged(front.cells().map(patch))
+}
+
+/// Thin lines along some edges of the patches, eight across.
+fn edges(front: &FrontPatches) -> Mesh {
+    const STEPS: u32 = 2;
+    let apart = (front.columns() / 8).max(1);
+    let lines = front.cells().flat_map(|[column, row]| {
+        let upright = (column % apart == 0).then_some((DVec2::ZERO, DVec2::Y));
+        let level = (row % apart == 0).then_some((DVec2::ZERO, DVec2::X));
+        let edges = upright.into_iter().chain(level);
+        edges.map(move |ends| ([column, row], ends))
+    });
+    Mesh::merged(lines.map(|(cell, (from, to))| {
+        let place = |i: u32| front.point(cell, from.lerp(to, f64::from(i) / f64::from(STEPS)));
+        let path: Vec<DVec3> = (0..=STEPS).filter_map(place).collect();
+        Mesh::tube(&path, 0.004, false)
+    }))
 }
