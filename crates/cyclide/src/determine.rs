@@ -250,10 +250,10 @@ pub(crate) fn through(spheres: [Cycle; 3]) -> Result<Determined, Error> {
             reason: "two of the tangent spheres are equal",
         });
     }
-    let product = lengths[0] * lengths[1];
-    let rejection =
-        (product - euclid(steps[0], steps[1]).abs()) * (product + euclid(steps[0], steps[1]).abs());
-    if rejection <= (tolerance::TANGENT_SPHERES * product).powi(2) {
+    // The part of one step across the other: a difference of squares would lose all digits of a small sine.
+    let across = steps[1] - steps[0] * (euclid(steps[0], steps[1]) / euclid(steps[0], steps[0]));
+    let rejection = euclid(across, across) * euclid(steps[0], steps[0]);
+    if rejection.sqrt() <= tolerance::TANGENT_SPHERES * lengths[0] * lengths[1] {
         return Err(Error::ConeOrCylinder);
     }
     let (g11, g22, g12) = (
@@ -297,8 +297,8 @@ pub(crate) fn through(spheres: [Cycle; 3]) -> Result<Determined, Error> {
         })
     };
     let Some(level) = level else {
-        // A torus, x towards the first sphere.
-        let x = start.centre - mean.centre;
+        // A torus, x towards the first sphere, also after the half turn that makes mu positive.
+        let x = (start.centre - mean.centre) * if is_reversed { -1.0 } else { 1.0 };
         let z = steps[0].centre.cross(steps[1].centre);
         let surface = Quartic::with_half_axes([b, b, 0.0], mean.radius, frame(x, z.cross(x))?)?;
         return Ok(Determined {
