@@ -4,6 +4,7 @@
 //! signs were counted.
 
 use crate::Error;
+use crate::finite::check_all;
 use crate::polar::{Affine, polar_derivative};
 use crate::sign_changes::{
     Signed, sign_changes, sign_changes_by_parity, sign_changes_left, sign_changes_right,
@@ -68,7 +69,7 @@ where
 /// are taken on the same interval. `k = l` is the classical variation diminishing property.
 ///
 /// # Errors
-/// [`Error::NoCoefficients`]; [`Error::IndexOrder`] unless `k <= l <= n`.
+/// [`Error::NoCoefficients`]; [`Error::IndexOrder`] unless `k <= l <= n`; [`Error::NotFinite`].
 pub fn corollary_bound<P: Clone + Signed>(
     coefficients: &[P],
     k: usize,
@@ -81,6 +82,7 @@ pub fn corollary_bound<P: Clone + Signed>(
     if k > l || l > degree {
         return Err(Error::IndexOrder { k, l, degree });
     }
+    check_all(coefficients)?;
     Ok(SplitBound {
         left: sign_changes_left(&coefficients[..=k]),
         middle: coefficients[k..=l].to_vec(),
@@ -105,7 +107,7 @@ pub struct ChainBound<P> {
 /// leaves its two end values behind. Cost O(n) a pole.
 ///
 /// # Errors
-/// [`Error::NoCoefficients`], [`Error::TooManyPoles`], [`Error::PoleOutside`].
+/// [`Error::NoCoefficients`], [`Error::TooManyPoles`], [`Error::PoleOutside`], [`Error::NotFinite`].
 ///
 /// # Examples
 /// ```
@@ -135,6 +137,7 @@ where
     if let Some(index) = poles.iter().position(|pole| !pole.in_unit()) {
         return Err(Error::PoleOutside { index });
     }
+    check_all(coefficients)?;
     let mut chain = Chain::new(coefficients);
     for pole in poles {
         chain.step(pole)?;
@@ -173,6 +176,7 @@ pub fn chain_bound_by(
             degree,
         });
     }
+    check_all(coefficients)?;
     let mut chain = Chain::new(coefficients);
     let mut best = chain.bound(coefficients);
     for _ in 0..count {

@@ -106,6 +106,7 @@ mod error;
 #[cfg(feature = "exact")]
 mod exact;
 mod fat_line;
+mod finite;
 mod input;
 mod isolate;
 #[cfg(feature = "exact")]
@@ -138,6 +139,7 @@ pub use bound::{
 };
 pub use curve::{Curve, Hit, meet_plane};
 pub use error::Error;
+pub use finite::Finite;
 pub use glam;
 #[cfg(feature = "exact")]
 pub use judge::Verdict;
