@@ -22,7 +22,7 @@ impl Dupin {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`]; [`Error::NotDetermined`] if two of the spheres are equal or one touches another from inside; [`Error::ConeOrCylinder`]
+    /// [`Error::NotFinite`], [`Error::LengthOutOfRange`]; [`Error::NotDetermined`] if two of the spheres are equal or one touches another from inside; [`Error::ConeOrCylinder`]
     /// if the three are inscribed in one cone.
     ///
     /// # Examples
@@ -38,8 +38,8 @@ impl Dupin {
     /// ```
     pub fn from_tangent_spheres(spheres: [Cycle; 3]) -> Result<Determined, Error> {
         for sphere in spheres {
-            crate::frame::finite_vector("sphere centre", sphere.centre)?;
-            crate::frame::finite("sphere radius", sphere.radius)?;
+            crate::frame::place("sphere centre", sphere.centre)?;
+            crate::frame::length("sphere radius", sphere.radius)?;
         }
         let [origin, ..] = spheres;
         // About the first centre, in units of the largest distance: all tolerances are then plain numbers.
@@ -164,7 +164,7 @@ impl Dupin {
         principal: CurvatureCircle,
         tangent: CurvatureCircle,
     ) -> Result<Self, Error> {
-        crate::frame::finite_vector("point of the principal line", point)?;
+        crate::frame::place("point of the principal line", point)?;
         let direction = direction.try_normalize().ok_or(Error::Direction)?;
         let size = principal
             .radius

@@ -1,7 +1,7 @@
 //! The quartic cyclides: ring, horned, spindle, the three tori, and the sphere counted twice.
 
 use crate::CurvatureCircle;
-use crate::frame::finite;
+use crate::frame::{finite, length, size};
 use crate::{Error, Frame, Kind, tolerance};
 use glam::DVec3;
 
@@ -56,12 +56,12 @@ impl Quartic {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`]; [`Error::QuarticParameters`] unless `a >= c >= 0`; [`Error::TwoSpheres`] for `a = c > 0`;
+    /// [`Error::NotFinite`]; [`Error::LengthOutOfRange`]; [`Error::QuarticParameters`] unless `a >= c >= 0`; [`Error::TwoSpheres`] for `a = c > 0`;
     /// [`Error::VanishingSphere`] for `a = c = mu = 0`.
     pub fn new(a: f64, c: f64, mu: f64, frame: Frame) -> Result<Self, Error> {
-        finite("a", a)?;
-        finite("c", c)?;
-        finite("mu", mu)?;
+        size("a", a)?;
+        length("c", c)?;
+        size("mu", mu)?;
         if c < 0.0 || a < c {
             return Err(Error::QuarticParameters { a, c });
         }
@@ -99,7 +99,7 @@ impl Quartic {
         frame: Frame,
     ) -> Result<Self, Error> {
         for (what, value) in [("a", a), ("b", b), ("c", c), ("mu", mu)] {
-            finite(what, value)?;
+            length(what, value)?;
         }
         if !(b > 0.0 && a >= b) {
             return Err(Error::QuarticParameters { a, c });
@@ -135,9 +135,9 @@ impl Quartic {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`]; [`Error::VanishingSphere`] for `mu = 0`; [`Error::NetEccentricity`] outside `[0, 1)`.
+    /// [`Error::NotFinite`], [`Error::LengthOutOfRange`]; [`Error::VanishingSphere`] for `mu = 0`; [`Error::NetEccentricity`] outside `[0, 1)`.
     pub fn double_sphere(mu: f64, e: f64, frame: Frame) -> Result<Self, Error> {
-        finite("mu", mu)?;
+        size("mu", mu)?;
         finite("e", e)?;
         if mu == 0.0 {
             return Err(Error::VanishingSphere);
@@ -239,9 +239,9 @@ impl Quartic {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`]; [`Error::VanishingSphere`] if a double sphere shrinks to its centre.
+    /// [`Error::NotFinite`], [`Error::LengthOutOfRange`]; [`Error::VanishingSphere`] if a double sphere shrinks to its centre.
     pub fn offset(&self, distance: f64) -> Result<Self, Error> {
-        let mu = finite("offset distance", self.mu + distance)?;
+        let mu = length("offset distance", self.mu + distance)?;
         if self.a == 0.0 {
             return Self::double_sphere(mu, self.eccentricity, self.frame);
         }
