@@ -4,8 +4,8 @@
 //! signs were counted.
 
 use crate::Error;
-use crate::finite::check_all;
-use crate::polar::{Affine, polar_derivative};
+use crate::finite::finite_degree;
+use crate::polar::{Affine, check_pole_count, polar_derivative};
 use crate::sign_changes::{
     Signed, sign_changes, sign_changes_by_parity, sign_changes_left, sign_changes_right,
 };
@@ -75,14 +75,10 @@ pub fn corollary_bound<P: Clone + Signed>(
     k: usize,
     l: usize,
 ) -> Result<SplitBound<P>, Error> {
-    let degree = coefficients
-        .len()
-        .checked_sub(1)
-        .ok_or(Error::NoCoefficients)?;
+    let degree = finite_degree(coefficients)?;
     if k > l || l > degree {
         return Err(Error::IndexOrder { k, l, degree });
     }
-    check_all(coefficients)?;
     Ok(SplitBound {
         left: sign_changes_left(&coefficients[..=k]),
         middle: coefficients[k..=l].to_vec(),
@@ -124,20 +120,10 @@ where
     P: Affine + Signed,
     P::Parameter: UnitParameter,
 {
-    let degree = coefficients
-        .len()
-        .checked_sub(1)
-        .ok_or(Error::NoCoefficients)?;
-    if poles.len() > degree {
-        return Err(Error::TooManyPoles {
-            poles: poles.len(),
-            degree,
-        });
-    }
+    check_pole_count(coefficients, poles.len())?;
     if let Some(index) = poles.iter().position(|pole| !pole.in_unit()) {
         return Err(Error::PoleOutside { index });
     }
-    check_all(coefficients)?;
     let mut chain = Chain::new(coefficients);
     for pole in poles {
         chain.step(pole)?;
@@ -166,17 +152,7 @@ pub fn chain_bound_by(
     count: usize,
     strategy: PoleStrategy,
 ) -> Result<ChainBound<f64>, Error> {
-    let degree = coefficients
-        .len()
-        .checked_sub(1)
-        .ok_or(Error::NoCoefficients)?;
-    if count > degree {
-        return Err(Error::TooManyPoles {
-            poles: count,
-            degree,
-        });
-    }
-    check_all(coefficients)?;
+    check_pole_count(coefficients, count)?;
     let mut chain = Chain::new(coefficients);
     let mut best = chain.bound(coefficients);
     for _ in 0..count {

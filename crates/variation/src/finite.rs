@@ -46,3 +46,13 @@ pub(crate) fn check_all<T: Finite>(list: &[T]) -> Result<(), Error> {
         None => Ok(()),
     }
 }
+
+/// The degree of a list of coefficients, which must not be empty and all finite.
+pub(crate) fn finite_degree<T: Finite>(coefficients: &[T]) -> Result<usize, Error> {
+    let degree = coefficients
+        .len()
+        .checked_sub(1)
+        .ok_or(Error::NoCoefficients)?;
+    check_all(coefficients)?;
+    Ok(degree)
+}

@@ -7,7 +7,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::Error;
-use crate::finite::{Finite, check_all};
+use crate::finite::{Finite, check_all, finite_degree};
 
 /// What Bernstein coefficients may be: numbers, points of the plane or of space, exact rationals.
 pub trait Affine: Clone + Finite {
@@ -81,6 +81,15 @@ pub fn polar_derivative<P: Affine>(
     }
 }
 
+/// Refuses more poles than the degree, and coefficients that are not finite.
+pub(crate) fn check_pole_count<P: Finite>(coefficients: &[P], poles: usize) -> Result<(), Error> {
+    let degree = finite_degree(coefficients)?;
+    if poles > degree {
+        return Err(Error::TooManyPoles { poles, degree });
+    }
+    Ok(())
+}
+
 /// The row after one pole of a row of finite values, two at least.
 fn row_after<P: Affine>(row: &[P], pole: &P::Parameter) -> Result<Vec<P>, Error> {
     let next: Vec<P> = row.windows(2).map(|p| p[0].mix(&p[1], pole)).collect();
@@ -97,17 +106,7 @@ pub fn polar_derivatives<P: Affine>(
     coefficients: &[P],
     poles: &[P::Parameter],
 ) -> Result<Vec<P>, Error> {
-    let degree = coefficients
-        .len()
-        .checked_sub(1)
-        .ok_or(Error::NoCoefficients)?;
-    if poles.len() > degree {
-        return Err(Error::TooManyPoles {
-            poles: poles.len(),
-            degree,
-        });
-    }
-    check_all(coefficients)?;
+    check_pole_count(coefficients, poles.len())?;
     check_all(poles)?;
     let mut row = coefficients.to_vec();
     for pole in poles {
@@ -122,10 +121,7 @@ pub fn polar_derivatives<P: Affine>(
 /// [`Error::NoCoefficients`]; [`Error::BlossomArity`] unless there are exactly `n` arguments; [`Error::NotFinite`], also on
 /// overflow.
 pub fn blossom<P: Affine>(coefficients: &[P], arguments: &[P::Parameter]) -> Result<P, Error> {
-    let degree = coefficients
-        .len()
-        .checked_sub(1)
-        .ok_or(Error::NoCoefficients)?;
+    let degree = finite_degree(coefficients)?;
     if arguments.len() != degree {
         return Err(Error::BlossomArity {
             degree,
