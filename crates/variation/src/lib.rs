@@ -44,6 +44,7 @@
 //! | | crossings with a curve, with itself | [`Curve::meet_curve`], [`Curve::self_meetings`], as [`Meeting`]s |
 //! | | extrema, inflections | [`Curve::extrema`], [`Curve::inflections`] |
 //! | a space curve | hits with a [`Plane`] | [`meet_plane`] |
+//! | a bound for them without solving | number and polygon | [`plane_bound`] |
 //! | a solver to test | reproducible hard polynomials, an exact judge | [`sets`], `Verdict`, `SturmChain` |
 //!
 //! # What the refined bound is good for
@@ -125,6 +126,7 @@ pub mod sets;
 mod sharp;
 mod sign_changes;
 mod solver;
+mod space_curve;
 #[cfg(feature = "exact")]
 mod square_free;
 #[cfg(feature = "exact")]
@@ -137,7 +139,7 @@ pub use bound::{
     ChainBound, PoleStrategy, SplitBound, UnitParameter, chain_bound, chain_bound_by,
     corollary_bound, pole_bound,
 };
-pub use curve::{Curve, Hit, meet_plane};
+pub use curve::{Curve, Hit};
 pub use error::Error;
 pub use finite::Finite;
 pub use glam;
@@ -159,6 +161,7 @@ pub use sign_changes::{
     sign_changes_right,
 };
 pub use solver::{Solver, roots, roots_of_all, roots_on};
+pub use space_curve::{meet_plane, plane_bound};
 #[cfg(feature = "exact")]
 pub use sturm::SturmChain;
 pub use tiers::DEFAULT_TOLERANCE;

@@ -4,8 +4,8 @@
 use variation::glam::{DVec2, DVec3};
 use variation::{
     Curve, Error, ImplicitCurve, Interval, Line, Plane, PoleStrategy, Solver, Term, blossom,
-    chain_bound, chain_bound_by, corollary_bound, meet_plane, polar_derivative, polar_derivatives,
-    pole_bound, roots, roots_of_power_form, roots_on,
+    chain_bound, chain_bound_by, corollary_bound, meet_plane, plane_bound, polar_derivative,
+    polar_derivatives, pole_bound, roots, roots_of_power_form, roots_on,
 };
 
 const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
@@ -73,7 +73,12 @@ fn what_is_not_finite_is_refused_everywhere() {
         assert!(curve.meet_circle(off, 1.0).is_err() && curve.meet_circle(DVec2::X, bad).is_err());
         assert!(Plane::try_new(DVec3::new(bad, 0.0, 1.0), 0.0).is_err());
         let plane = Plane::try_new(DVec3::Z, 0.0).unwrap();
-        assert!(meet_plane(&[DVec3::ZERO, DVec3::splat(bad)], None, plane).is_err());
+        let points = [DVec3::ZERO, DVec3::splat(bad)];
+        assert!(meet_plane(&points, None, plane).is_err());
+        assert!(plane_bound(&points, None, plane, &[0.5]).is_err());
+        let good = [DVec3::Z, DVec3::NEG_Z];
+        assert!(plane_bound(&good, Some(&[1.0, bad]), plane, &[]).is_err());
+        assert!(plane_bound(&good, None, plane, &[bad]).is_err());
     }
 }
 
