@@ -163,7 +163,7 @@ fn cones() -> Vec<Cone> {
             dvec3(1e-300, 0.0, 1.0),
             DVec3::splat(1e150),
         ] {
-            for angle in [1e-300, 1e-12, 0.4, 1.570_79] {
+            for angle in [1e-300, 1e-12, 0.4, 1.57] {
                 cones.extend(Cone::new(DVec3::splat(place), axis, angle));
             }
             for radius in [1e-60, 1.0, 1e60] {

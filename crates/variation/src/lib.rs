@@ -44,7 +44,7 @@
 //! | | crossings with a curve, with itself | [`Curve::meet_curve`], [`Curve::self_meetings`], as [`Meeting`]s |
 //! | | extrema, inflections | [`Curve::extrema`], [`Curve::inflections`] |
 //! | a space curve | hits with a [`Plane`] | [`meet_plane`] |
-//! | a bound for them without solving | number and polygon | [`plane_bound`] |
+//! | | how many at most, without solving | [`plane_bound`] |
 //! | a solver to test | reproducible hard polynomials, an exact judge | [`sets`], `Verdict`, `SturmChain` |
 //!
 //! # What the refined bound is good for
