@@ -125,7 +125,7 @@ impl Dupin {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`], [`Error::LengthOutOfRange`]; [`Error::Direction`] for a zero direction; [`Error::Root`] if the line lies on the surface.
+    /// [`Error::NotFinite`]; [`Error::LengthOutOfRange`] for the origin; [`Error::Direction`] for a zero direction; [`Error::Root`] if the line lies on the surface.
     ///
     /// # Examples
     ///
