@@ -128,7 +128,7 @@ fn shapes_of_bad_numbers_are_refused() {
                 assert!(mesh.positions().iter().all(|p| p.is_finite()));
             }
             // Radii further apart than this only differ in how long the refusal takes.
-            if (minor / major).abs() < 1e-12 && minor != 1.0 {
+            if (minor / major).abs() < 1e-12 && (major, minor) != (f64::MAX, 1.0) {
                 continue;
             }
             if let Ok(closed) = closed_torus_geodesic(major, minor, 1, 2) {
