@@ -154,8 +154,10 @@ fn shapes_of_bad_numbers_are_refused() {
             for (uv, direction) in [(uv, DVec2::X), (DVec2::ZERO, uv)] {
                 let start = geodesic::SurfaceRay { uv, direction };
                 for (length, tolerance) in [(1.0, 1e-9), (major, 1e-9), (1.0, major)] {
-                    // A length of 1e150 would take as many steps.
-                    if length.abs() > 1e100 && length.is_finite() {
+                    // Lengths of 1e150 and tolerances of 1e-150 take the million steps after which a trace gives up.
+                    let takes_all_steps = (length.is_finite() && length.abs() > 1e100)
+                        || (tolerance > 0.0 && tolerance < 1e-100);
+                    if takes_all_steps {
                         continue;
                     }
                     if let Ok(end) = geodesic::trace_smooth(&surface, start, length, tolerance) {

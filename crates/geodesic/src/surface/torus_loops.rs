@@ -60,6 +60,18 @@ pub fn closed_torus_geodesic(
     let wanted = TAU * f64::from(p) / turns;
     let most = (1.0 - tube) * (1.0 - 1e-13);
     let (mut low, mut high) = (0.0, most);
+    // On a thin tube the constant comes closer to the inner radius than numbers can tell.
+    let too_thin = Error::ThinTorus {
+        major,
+        minor,
+        turns: [p, q],
+    };
+    // The integrand is largest on the inside; where even that does not suffice, no quadrature is needed.
+    let inner = 1.0 - tube;
+    let largest = most * tube / (inner * ((inner - most) * (inner + most)).sqrt());
+    if TAU * largest < wanted {
+        return Err(too_thin);
+    }
     while p > 0 && high - low > 2.0 * f64::EPSILON * high {
         let middle = 0.5 * (low + high);
         if turning(middle) < wanted {
@@ -71,13 +83,8 @@ pub fn closed_torus_geodesic(
             break;
         }
     }
-    // On a thin tube the constant comes closer to the inner radius than numbers can tell.
     if p > 0 && high == most {
-        return Err(Error::ThinTorus {
-            major,
-            minor,
-            turns: [p, q],
-        });
+        return Err(too_thin);
     }
     let clairaut = if p == 0 { 0.0 } else { 0.5 * (low + high) };
     Ok(ClosedTorusGeodesic {
