@@ -62,6 +62,31 @@ pub fn read(name: &str) -> Value {
     serde_json::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
+/// The list at the top-level key `key` of a file; empty if the file lacks the key.
+///
+/// # Panics
+///
+/// If the key holds something else than a list, or if the file has cases at another top-level key, which then would pass
+/// unseen: this is test code.
+#[must_use]
+#[expect(clippy::panic, reason = "a malformed file fails by name")]
+pub fn list_at<'a>(file: &'a Value, key: &str) -> &'a [Value] {
+    for (other, value) in file.as_object().into_iter().flatten() {
+        let holds_cases = value
+            .as_array()
+            .is_some_and(|list| list.iter().any(Value::is_object));
+        assert!(
+            other == key || !holds_cases,
+            "unknown list of cases {other}"
+        );
+    }
+    match file.get(key) {
+        None => &[],
+        Some(Value::Array(list)) => list,
+        Some(other) => panic!("{key} is no list: {other}"),
+    }
+}
+
 /// The folder of real meshes, if `MESH_DIR` names one.
 #[must_use]
 pub fn mesh_folder() -> Option<PathBuf> {
@@ -302,10 +327,12 @@ impl<'a> Case<'a> {
                     "the refusal \"{error}\" is expected and none was given"
                 ));
             }
-        } else if let Some(keys) = self.expected.as_object() {
+        } else if let Some(keys) = self.expected.as_object().filter(|keys| !keys.is_empty()) {
             for key in keys.keys().filter(|key| !read.contains(*key)) {
                 self.fail(format!("expected key {key} was not looked at"));
             }
+        } else if self.failures.borrow().is_empty() {
+            self.fail("neither values nor a refusal are expected".to_owned());
         }
     }
 }
@@ -383,6 +410,26 @@ mod tests {
         ] {
             let failure = run("k", &expected, answer).unwrap_err();
             assert!(failure.contains("the case [k]"), "{failure}");
+        }
+    }
+
+    #[test]
+    fn a_case_that_expects_nothing_fails() {
+        for expected in [json!({}), Value::Null, json!({"error": 3})] {
+            assert!(run("k", &expected, |case| case.compare("x", 2.0)).is_err());
+        }
+    }
+
+    #[test]
+    fn a_list_is_found_at_its_key_and_nowhere_else() {
+        let file = json!({"about": "words", "cases": [{"kind": "k"}]});
+        assert_eq!(list_at(&file, "cases").len(), 1);
+        assert!(list_at(&json!({"about": "words"}), "cases").is_empty());
+        for file in [
+            json!({"cases": 3}),
+            json!({"cases": [], "more": [{"kind": "k"}]}),
+        ] {
+            assert!(catch_unwind(|| list_at(&file, "cases").len()).is_err());
         }
     }
 

@@ -1,7 +1,7 @@
 //! Paths between vertices of real meshes (`geodesic-pairs.json`), when `MESH_DIR` names the folder that holds them.
 
 use geodesic::{Mesh, PathFinder, Start};
-use integration_tests::{Case, Tolerance, judge, mesh_folder, read};
+use integration_tests::{Case, Tolerance, judge, list_at, mesh_folder, read};
 use serde_json::json;
 
 #[path = "geodesic_paths/pairs.rs"]
@@ -14,7 +14,7 @@ fn fixtures_geodesic_pairs() {
         println!("fixtures_geodesic_pairs: MESH_DIR is not set, the real meshes are not looked at");
         return;
     };
-    let meshes = file["meshes"].as_array().expect("a list of meshes");
+    let meshes = list_at(&file, "meshes");
     let cases = meshes.iter().map(|entry| {
         let name = entry["file"].as_str().expect("a file name");
         Case::new(name, "pairs", entry).expecting(entry, Tolerance::ComponentwiseMax(1e-9))

@@ -1,6 +1,6 @@
 //! Circular arcs, and hyperbolas seen as circles (Theorems 1 and 2 of the mass-point paper).
 
-use crate::conic::PARABOLA;
+use crate::conic_of_arc::PARABOLA;
 use crate::{Error, MassPoint, Quadratic, VectorSpace};
 use glam::{DVec2, DVec3};
 

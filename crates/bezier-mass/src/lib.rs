@@ -65,6 +65,7 @@ mod biquadratic;
 mod bspline_curve;
 mod bspline_surface;
 mod conic;
+mod conic_of_arc;
 mod curve;
 mod error;
 mod grid;

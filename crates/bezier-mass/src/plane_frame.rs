@@ -1,6 +1,6 @@
 //! The plane of a conic in space.
 
-use crate::conic::heaviest;
+use crate::conic_of_arc::heaviest;
 use crate::{Conic, Error, MassPoint, Quadratic};
 use glam::{DVec2, DVec3};
 

@@ -172,9 +172,9 @@ impl Classification {
     ///
     /// # Errors
     ///
-    /// [`Error::NotBlendable`] if there is no family; [`Error::NotFinite`]. Families whose member there is the common sphere are left out.
+    /// [`Error::NotBlendable`] if there is no family; [`Error::NotFinite`], [`Error::LengthOutOfRange`]. Families whose member there is the common sphere are left out.
     pub fn blends_at_height(&self, height: f64) -> Result<Vec<Blend>, Error> {
-        crate::frame::finite("height", height)?;
+        crate::frame::length("height", height)?;
         if self.families.is_empty() {
             return Err(Error::NotBlendable(self.class));
         }

@@ -1,6 +1,6 @@
 //! Cones and cylinders as lines of oriented spheres.
 
-use crate::frame::{finite, finite_vector};
+use crate::frame::{place, size};
 use crate::{CurvatureCircle, Error};
 use glam::DVec3;
 use lorentz::Cycle;
@@ -27,9 +27,9 @@ impl Cone {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`] for the vertex; [`Error::Axis`] for a zero or infinite direction; [`Error::HalfAngle`].
+    /// [`Error::NotFinite`], [`Error::LengthOutOfRange`] for the vertex; [`Error::Axis`] for a zero or infinite direction; [`Error::HalfAngle`].
     pub fn new(vertex: DVec3, axis: DVec3, half_angle: f64) -> Result<Self, Error> {
-        finite_vector("cone vertex", vertex)?;
+        place("cone vertex", vertex)?;
         let axis = axis.try_normalize().ok_or(Error::Axis { axis })?;
         if half_angle > 0.0 && half_angle < FRAC_PI_2 {
             Ok(Self {
@@ -47,10 +47,10 @@ impl Cone {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`]; [`Error::Axis`]; [`Error::CylinderRadius`].
+    /// [`Error::NotFinite`], [`Error::LengthOutOfRange`]; [`Error::Axis`]; [`Error::CylinderRadius`].
     pub fn cylinder(point: DVec3, axis: DVec3, radius: f64) -> Result<Self, Error> {
-        finite_vector("cylinder point", point)?;
-        finite("cylinder radius", radius)?;
+        place("cylinder point", point)?;
+        size("cylinder radius", radius)?;
         let axis = axis.try_normalize().ok_or(Error::Axis { axis })?;
         if radius <= 0.0 {
             return Err(Error::CylinderRadius { radius });

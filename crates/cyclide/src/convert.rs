@@ -464,10 +464,22 @@ fn nearest_turn(angle: f64, reference: f64) -> f64 {
     angle - TAU * ((angle - reference) / TAU).round()
 }
 
-/// Both ends shifted by full turns so that the first lies in `[0, 2 pi)`.
+/// Both ends shifted by full turns so that the first lies in `[0, 2 pi)`; one that the recovery left below zero is zero.
 fn reduced([from, to]: [f64; 2]) -> [f64; 2] {
-    let start = from.rem_euclid(TAU);
-    // rem_euclid rounds a tiny negative angle up to a full turn.
-    let start = if start >= TAU { 0.0 } else { start };
-    [start, to + (start - from)]
+    let turns = ((from + tolerance::RECOVERED_KIND) / TAU).floor();
+    [(from - turns * TAU).max(0.0), to - turns * TAU]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_start_just_below_a_full_turn_is_zero() {
+        assert_eq!(reduced([-1e-15, 2.0]), [0.0, 2.0]);
+        assert_eq!(reduced([TAU - 1e-12, TAU + 2.0]), [0.0, 2.0]);
+        assert_eq!(reduced([TAU, 1.0]), [0.0, 1.0 - TAU]);
+        assert_eq!(reduced([-1.0, -2.0]), [TAU - 1.0, TAU - 2.0]);
+        assert_eq!(reduced([1e-15, -2.0]), [1e-15, -2.0]);
+    }
 }

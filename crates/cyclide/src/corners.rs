@@ -1,6 +1,6 @@
 //! Cyclide patches from the outside in: four concircular corners and the frame at one of them.
 
-use crate::frame::finite_vector;
+use crate::frame::place;
 use crate::{Error, inspect, tolerance};
 use bezier_mass::{Biquadratic, MassPoint};
 use glam::DVec3;
@@ -14,7 +14,7 @@ use glam::DVec3;
 ///
 /// # Errors
 ///
-/// [`Error::NotFinite`]; [`Error::Corners`] if the directions are not orthogonal, corners coincide, or the tangent planes meet in no point;
+/// [`Error::NotFinite`], [`Error::LengthOutOfRange`]; [`Error::Corners`] if the directions are not orthogonal, corners coincide, or the tangent planes meet in no point;
 /// [`Error::NotAPatch`] if the corners are not on one circle.
 ///
 /// # Examples
@@ -32,7 +32,7 @@ pub fn patch_from_corners(
     along_column: DVec3,
 ) -> Result<Biquadratic<DVec3>, Error> {
     for vector in corners.into_iter().chain([along_row, along_column]) {
-        finite_vector("corner data", vector)?;
+        place("corner data", vector)?;
     }
     let no_direction = Error::Corners {
         reason: "an edge direction is zero",

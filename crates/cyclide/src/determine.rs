@@ -22,7 +22,7 @@ impl Dupin {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`]; [`Error::NotDetermined`] if two of the spheres are equal or one touches another from inside; [`Error::ConeOrCylinder`]
+    /// [`Error::NotFinite`], [`Error::LengthOutOfRange`]; [`Error::NotDetermined`] if two of the spheres are equal or one touches another from inside; [`Error::ConeOrCylinder`]
     /// if the three are inscribed in one cone.
     ///
     /// # Examples
@@ -38,8 +38,8 @@ impl Dupin {
     /// ```
     pub fn from_tangent_spheres(spheres: [Cycle; 3]) -> Result<Determined, Error> {
         for sphere in spheres {
-            crate::frame::finite_vector("sphere centre", sphere.centre)?;
-            crate::frame::finite("sphere radius", sphere.radius)?;
+            crate::frame::place("sphere centre", sphere.centre)?;
+            crate::frame::length("sphere radius", sphere.radius)?;
         }
         let [origin, ..] = spheres;
         // About the first centre, in units of the largest distance: all tolerances are then plain numbers.
@@ -164,7 +164,7 @@ impl Dupin {
         principal: CurvatureCircle,
         tangent: CurvatureCircle,
     ) -> Result<Self, Error> {
-        crate::frame::finite_vector("point of the principal line", point)?;
+        crate::frame::place("point of the principal line", point)?;
         let direction = direction.try_normalize().ok_or(Error::Direction)?;
         let size = principal
             .radius
@@ -250,10 +250,10 @@ pub(crate) fn through(spheres: [Cycle; 3]) -> Result<Determined, Error> {
             reason: "two of the tangent spheres are equal",
         });
     }
-    let product = lengths[0] * lengths[1];
-    let rejection =
-        (product - euclid(steps[0], steps[1]).abs()) * (product + euclid(steps[0], steps[1]).abs());
-    if rejection <= (tolerance::TANGENT_SPHERES * product).powi(2) {
+    // The part of one step across the other: a difference of squares would lose all digits of a small sine.
+    let across = steps[1] - steps[0] * (euclid(steps[0], steps[1]) / euclid(steps[0], steps[0]));
+    let rejection = euclid(across, across) * euclid(steps[0], steps[0]);
+    if rejection.sqrt() <= tolerance::TANGENT_SPHERES * lengths[0] * lengths[1] {
         return Err(Error::ConeOrCylinder);
     }
     let (g11, g22, g12) = (
@@ -297,8 +297,8 @@ pub(crate) fn through(spheres: [Cycle; 3]) -> Result<Determined, Error> {
         })
     };
     let Some(level) = level else {
-        // A torus, x towards the first sphere.
-        let x = start.centre - mean.centre;
+        // A torus, x towards the first sphere, also after the half turn that makes mu positive.
+        let x = (start.centre - mean.centre) * if is_reversed { -1.0 } else { 1.0 };
         let z = steps[0].centre.cross(steps[1].centre);
         let surface = Quartic::with_half_axes([b, b, 0.0], mean.radius, frame(x, z.cross(x))?)?;
         return Ok(Determined {

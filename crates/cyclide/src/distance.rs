@@ -1,6 +1,6 @@
 //! Distance and closest point, exact: a point lies on four (three) surfaces parallel to a given one.
 
-use crate::frame::finite_vector;
+use crate::frame::place;
 use crate::{Dupin, Error, Parabolic, Quartic};
 use glam::DVec3;
 
@@ -160,7 +160,7 @@ impl Dupin {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`].
+    /// [`Error::NotFinite`], [`Error::LengthOutOfRange`].
     ///
     /// # Examples
     ///
@@ -173,7 +173,7 @@ impl Dupin {
     /// # Ok::<(), cyclide::Error>(())
     /// ```
     pub fn closest(&self, point: DVec3) -> Result<Closest, Error> {
-        finite_vector("query point", point)?;
+        place("query point", point)?;
         let q = self.frame().point_to_local(point);
         let local = match self {
             Self::Quartic(surface) => surface.local_closest(q),
@@ -190,7 +190,7 @@ impl Dupin {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`].
+    /// [`Error::NotFinite`], [`Error::LengthOutOfRange`].
     pub fn signed_distance(&self, point: DVec3) -> Result<f64, Error> {
         Ok(self.closest(point)?.distance)
     }

@@ -15,6 +15,16 @@ pub enum Error {
         /// The value that was given.
         value: f64,
     },
+    /// A length or coordinate whose fourth power a double cannot hold.
+    #[error(
+        "{what} of {value:e} is out of range: lengths must lie between 1e-70 and 1e70, or be zero"
+    )]
+    LengthOutOfRange {
+        /// Which number.
+        what: &'static str,
+        /// The given value.
+        value: f64,
+    },
     /// The axes of a frame are not orthonormal and right-handed.
     #[error("the axes are no right-handed orthonormal frame: off by {deviation:e}")]
     NotAFrame {

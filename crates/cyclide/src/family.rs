@@ -1,7 +1,7 @@
 //! One-parameter families of blends: two lines of spheres that meet or are parallel.
 
 use crate::blend::{self, Blend};
-use crate::frame::{finite, finite_vector};
+use crate::frame::{length, place};
 use crate::{CurvatureCircle, Error, Kind, SphereLine, tolerance};
 use bezier_mass::MassPoint;
 use glam::DVec3;
@@ -167,10 +167,10 @@ impl Family {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`]; [`Error::CommonSphere`] at `t = 0`, where the cyclide shrinks to the common inscribed sphere;
+    /// [`Error::NotFinite`], [`Error::LengthOutOfRange`]; [`Error::CommonSphere`] at `t = 0`, where the cyclide shrinks to the common inscribed sphere;
     /// [`Error::NotTangent`] if rounding leaves a residual above [`tolerance::BLEND`].
     pub fn blend(&self, parameter: f64) -> Result<Blend, Error> {
-        finite("family parameter", parameter)?;
+        length("family parameter", parameter)?;
         if matches!(self.structure, Structure::Meet { .. })
             && parameter.abs() <= tolerance::CLASS * self.size
         {
@@ -194,7 +194,7 @@ impl Family {
     ///
     /// As [`Family::blend`].
     pub fn blend_at_height(&self, height: f64) -> Result<Blend, Error> {
-        self.blend(self.parameter_at_height(finite("height", height)?))
+        self.blend(self.parameter_at_height(length("height", height)?))
     }
 
     pub(crate) fn parameter_at_height(&self, height: f64) -> f64 {
@@ -210,10 +210,10 @@ impl Family {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`]; [`Error::NotOnDiagonal`] for a point off the diagonal or off the axial plane, further than
+    /// [`Error::NotFinite`], [`Error::LengthOutOfRange`]; [`Error::NotOnDiagonal`] for a point off the diagonal or off the axial plane, further than
     /// [`tolerance::CLASS`] of the data's size; also for cones on one axis, whose members are not told apart by points.
     pub fn parameter_at(&self, x: DVec3) -> Result<f64, Error> {
-        finite_vector("point on the diagonal", x)?;
+        place("point on the diagonal", x)?;
         let [first, second] = &self.lines;
         let (distance, size, parameter) = match self.structure {
             Structure::Meet {

@@ -36,11 +36,11 @@ impl Frame {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`] for NaN and infinities, [`Error::NotAFrame`] for axes that are not a right-handed
+    /// [`Error::NotFinite`] for NaN and infinities, [`Error::LengthOutOfRange`] for the origin, [`Error::NotAFrame`] for axes that are not a right-handed
     /// orthonormal triple.
     pub fn new(origin: DVec3, x: DVec3, y: DVec3, z: DVec3) -> Result<Self, Error> {
+        place("frame origin", origin)?;
         for (what, vector) in [
-            ("frame origin", origin),
             ("frame axis x", x),
             ("frame axis y", y),
             ("frame axis z", z),
@@ -66,7 +66,7 @@ impl Frame {
     }
 
     /// The frame with the given `x` and with `y` as near as possible to the given direction, which need not be
-    /// perpendicular; `None` if the two are parallel, zero or not finite.
+    /// perpendicular; `None` if the two are parallel, zero or not finite, or the origin is out of range.
     #[must_use]
     pub fn from_directions(origin: DVec3, x: DVec3, y_hint: DVec3) -> Option<Self> {
         let x = x.try_normalize()?;
@@ -74,7 +74,7 @@ impl Frame {
         let y = (y_hint - y_hint.dot(x) * x).try_normalize()?;
         // A second pass removes what the first one rounded.
         let y = (y - y.dot(x) * x).try_normalize()?;
-        (origin.is_finite()).then_some(Self {
+        place("frame origin", origin).is_ok().then_some(Self {
             origin,
             x,
             y,
@@ -204,4 +204,29 @@ pub(crate) fn finite_vector(what: &'static str, vector: DVec3) -> Result<DVec3, 
         finite(what, value)?;
     }
     Ok(vector)
+}
+
+/// Refuses lengths whose fourth powers a double cannot hold, of either sign.
+pub(crate) fn length(what: &'static str, value: f64) -> Result<f64, Error> {
+    if finite(what, value)?.abs() <= tolerance::LARGEST_LENGTH {
+        Ok(value)
+    } else {
+        Err(Error::LengthOutOfRange { what, value })
+    }
+}
+
+/// As [`length`], for one that gives a surface its size: it must not be too small either, unless it is zero.
+pub(crate) fn size(what: &'static str, value: f64) -> Result<f64, Error> {
+    if value != 0.0 && value.abs() < 1.0 / tolerance::LARGEST_LENGTH {
+        return Err(Error::LengthOutOfRange { what, value });
+    }
+    length(what, value)
+}
+
+/// Refuses places with a coordinate that is no [`length`].
+pub(crate) fn place(what: &'static str, point: DVec3) -> Result<DVec3, Error> {
+    for value in point.to_array() {
+        length(what, value)?;
+    }
+    Ok(point)
 }

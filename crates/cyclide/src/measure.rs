@@ -1,6 +1,6 @@
 //! Bounding box, area and volume.
 
-use crate::frame::finite;
+use crate::frame::length;
 use crate::{Dupin, Error, Quartic};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
@@ -38,18 +38,26 @@ impl Dupin {
         Some([low, high])
     }
 
-    /// The area of a rectangle of parameters, counted without sign. On a quartic spans of `2 pi` give the whole surface. Relative
-    /// accuracy about 1e-13.
+    /// The area of a rectangle of parameters, counted without sign. On a quartic spans of `2 pi` give the whole surface, and longer ones
+    /// count it again. Relative accuracy about 1e-13.
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`].
+    /// [`Error::NotFinite`]; [`Error::LengthOutOfRange`] for a bound beyond 1e70.
     pub fn area(&self, first: [f64; 2], second: [f64; 2]) -> Result<f64, Error> {
         for bound in first.into_iter().chain(second) {
-            finite("parameter bound", bound)?;
+            length("parameter bound", bound)?;
         }
         Ok(match self {
-            Self::Quartic(surface) => surface.rectangle_area(first, second),
+            Self::Quartic(surface) => {
+                let mut total = 0.0;
+                for (turns, theta) in turns_and_rest(first) {
+                    for (again, psi) in turns_and_rest(second) {
+                        total += turns * again * surface.rectangle_area(theta, psi);
+                    }
+                }
+                total
+            }
             Self::Parabolic(surface) => {
                 let (f, k) = (surface.f(), surface.k());
                 let zeros = |square: f64| {
@@ -59,8 +67,18 @@ impl Dupin {
                         Vec::new()
                     }
                 };
-                let outer = pieces(first, &zeros(-k / f - 0.5));
-                let inner = pieces(second, &zeros(k / f - 0.5));
+                let cuts = |span: [f64; 2], square: f64| {
+                    let mut cuts = zeros(square);
+                    // The singularities of the integrand are as far away as the origin: pieces may grow with the distance from it.
+                    let reach = span[0].abs().max(span[1].abs());
+                    let doubling = std::iter::successors(Some(1.0), |x| Some(2.0 * x));
+                    for x in doubling.take_while(|&x| x < reach) {
+                        cuts.extend([x, -x]);
+                    }
+                    pieces(span, &cuts)
+                };
+                let outer = cuts(first, -k / f - 0.5);
+                let inner = cuts(second, k / f - 0.5);
                 integrate(&outer, |u| {
                     let strip = integrate(&inner, |v| {
                         surface.v_radius(v).abs() * 4.0 / (1.0 + u * u + v * v).powi(2)
@@ -135,6 +153,22 @@ impl Quartic {
     }
 }
 
+/// A span as a number of full turns and what is left, each with how often it counts.
+fn turns_and_rest([from, to]: [f64; 2]) -> [(f64, [f64; 2]); 2] {
+    let span = (to - from).abs();
+    let turns = (span / TAU).floor();
+    let start = from.min(to);
+    [
+        (turns, [start, start + TAU]),
+        (1.0, [start, start + (span - turns * TAU)]),
+    ]
+    .map(|(count, [from, to])| {
+        // A huge start has no digits left for the angle; any start serves then.
+        let start = from.rem_euclid(TAU);
+        (count, [start, start + (to - from).clamp(0.0, TAU)])
+    })
+}
+
 /// Where `cos t = value` inside a span.
 fn periodic_zeros([from, to]: [f64; 2], value: f64) -> Vec<f64> {
     if value.is_nan() || value.abs() >= 1.0 {
@@ -152,7 +186,7 @@ fn periodic_zeros([from, to]: [f64; 2], value: f64) -> Vec<f64> {
     zeros
 }
 
-/// A span cut at the given places, ascending, in steps of at most an eighth of a turn.
+/// A span cut at the given places, ascending.
 fn pieces([from, to]: [f64; 2], cuts: &[f64]) -> Vec<[f64; 2]> {
     let (low, high) = (from.min(to), from.max(to));
     let mut bounds: Vec<f64> = cuts
@@ -226,6 +260,27 @@ mod tests {
     #[test]
     fn gauss_is_exact_for_degree_fifteen() {
         assert!((gauss([0.0, 1.0], &|x: f64| 16.0 * x.powi(15)) - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn long_spans_count_the_surface_again() {
+        let ring = Dupin::quartic(3.0, 1.0, 2.0, Frame::WORLD).unwrap();
+        let once = ring.area([0.0, TAU], [0.0, 1.0]).unwrap();
+        let often = ring.area([0.3, 0.3 + 1000.0 * TAU], [0.0, 1.0]).unwrap();
+        assert!((often / once - 1000.0).abs() < 1e-9);
+        let part = ring.area([0.3, 1.1], [0.2, 0.9]).unwrap();
+        let more = ring.area([0.3, 1.1 + TAU], [0.2, 0.9]).unwrap();
+        let strip = ring.area([0.0, TAU], [0.2, 0.9]).unwrap();
+        assert!((more - part - strip).abs() < 1e-12);
+        assert!(ring.area([0.0, 1e60], [0.0, 1.0]).unwrap().is_finite());
+        // A parabolic cyclide is like a plane far out: its area grows with the square of the reach.
+        let surface = Dupin::parabolic(1.0, 0.2, Frame::WORLD).unwrap();
+        let [near, far] = [1e9, 2e9].map(|reach| surface.area([0.0, reach], [0.0, reach]).unwrap());
+        assert!((far / near - 4.0).abs() < 1e-6, "{near} {far}");
+        assert!(matches!(
+            ring.area([0.0, 1e80], [0.0, 1.0]),
+            Err(Error::LengthOutOfRange { .. })
+        ));
     }
 
     #[test]

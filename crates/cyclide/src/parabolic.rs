@@ -1,7 +1,7 @@
 //! The parabolic cyclides: cubic surfaces that pass through infinity and contain two straight lines.
 
 use crate::CurvatureCircle;
-use crate::frame::finite;
+use crate::frame::{length, size};
 use crate::{Error, Frame, Kind, tolerance};
 use glam::DVec3;
 
@@ -29,10 +29,10 @@ impl Parabolic {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`]; [`Error::FocalParameter`] unless `f > 0`.
+    /// [`Error::NotFinite`]; [`Error::LengthOutOfRange`]; [`Error::FocalParameter`] unless `f > 0`.
     pub fn new(f: f64, k: f64, frame: Frame) -> Result<Self, Error> {
-        finite("f", f)?;
-        finite("k", k)?;
+        size("f", f)?;
+        length("k", k)?;
         if f <= 0.0 {
             return Err(Error::FocalParameter { f });
         }
@@ -103,7 +103,7 @@ impl Parabolic {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`].
+    /// [`Error::NotFinite`], [`Error::LengthOutOfRange`].
     pub fn offset(&self, distance: f64) -> Result<Self, Error> {
         Self::new(self.f, self.k + distance, self.frame)
     }

@@ -1,6 +1,6 @@
 //! Intersections with lines: every real one, with an enclosure.
 
-use crate::frame::finite_vector;
+use crate::frame::{finite_vector, place};
 use crate::{Dupin, Error, Parabolic, Quartic};
 use glam::DVec3;
 use std::ops::Deref;
@@ -89,7 +89,7 @@ impl RayCaster {
     ///
     /// As [`Dupin::intersect`].
     pub fn intersect(&mut self, origin: DVec3, direction: DVec3) -> Result<RayHits, Error> {
-        finite_vector("ray origin", origin)?;
+        place("ray origin", origin)?;
         finite_vector("ray direction", direction)?;
         let length = direction.length();
         if !(length > 0.0 && length.is_finite()) {
@@ -125,7 +125,7 @@ impl Dupin {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`]; [`Error::Direction`] for a zero direction; [`Error::Root`] if the line lies on the surface.
+    /// [`Error::NotFinite`]; [`Error::LengthOutOfRange`] for the origin; [`Error::Direction`] for a zero direction; [`Error::Root`] if the line lies on the surface.
     ///
     /// # Examples
     ///

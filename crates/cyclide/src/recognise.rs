@@ -1,6 +1,6 @@
 //! What makes a biquadratic net the net of a cyclide patch: PG1 to PG4 and the weights.
 
-use crate::frame::{finite, finite_vector};
+use crate::frame::{finite, place};
 use crate::patch::normalise;
 use crate::{Error, tolerance};
 use bezier_mass::{Biquadratic, MassPoint};
@@ -149,10 +149,10 @@ pub fn inspect(net: &Biquadratic<DVec3>) -> Result<NetReport, Error> {
 ///
 /// # Errors
 ///
-/// [`Error::NotFinite`]; [`Error::NotAPatch`] with the first of PG1 to PG4 that fails.
+/// [`Error::NotFinite`], [`Error::LengthOutOfRange`]; [`Error::NotAPatch`] with the first of PG1 to PG4 that fails.
 pub fn solve_weights(points: &[[DVec3; 3]; 3]) -> Result<Biquadratic<DVec3>, Error> {
     for &point in points.as_flattened() {
-        finite_vector("control point", point)?;
+        place("control point", point)?;
     }
     let [concyclic_corners, equal_edges, right_angles, corner_planes] = geometric_residuals(points);
     NetReport {

@@ -1,7 +1,7 @@
 //! Smooth blends of a family: ring cyclides, found without search.
 
 use crate::family::{Conic, Shape, Structure};
-use crate::frame::finite;
+use crate::frame::length;
 use crate::{Blend, Error, Family, Kind};
 
 /// Which ring cyclide of a family is wanted.
@@ -29,16 +29,16 @@ impl Family {
     ///
     /// # Errors
     ///
-    /// [`Error::NoRing`] with the type of the members where a ring was wanted; [`Error::NotFinite`]; as [`Family::blend`].
+    /// [`Error::NoRing`] with the type of the members where a ring was wanted; [`Error::NotFinite`], [`Error::LengthOutOfRange`]; as [`Family::blend`].
     pub fn ring_blend(&self, preference: RingPreference) -> Result<Blend, Error> {
         let shape = self.shape();
         let candidates = match preference {
             RingPreference::ContactAtHeight(height) => {
-                vec![self.parameter_at_height(finite("height", height)?)]
+                vec![self.parameter_at_height(length("height", height)?)]
             }
             RingPreference::Widest => self.widest(&shape),
             RingPreference::SmallestCurvature { reach } => {
-                let reach = finite("reach", reach)?.abs();
+                let reach = length("reach", reach)?.abs();
                 match self.structure {
                     // Piecewise linear in t, so the best is at a middle or at the limit.
                     Structure::Meet { .. } => {

@@ -2,6 +2,10 @@
 //!
 //! All are relative: to the size of the data where lengths are compared, to 1 where directions or weights are.
 
+/// Lengths and coordinates may be this large, and sizes as small as its inverse: the implicit equation is of degree four,
+/// and 1e280 leaves room for its factors.
+pub const LARGEST_LENGTH: f64 = 1e70;
+
 /// Axes given for a frame may be off by this much; they are then made orthonormal. Wide enough for numbers printed
 /// with ten digits.
 pub const FRAME: f64 = 1e-9;

@@ -10,7 +10,7 @@ impl Quartic {
     ///
     /// # Errors
     ///
-    /// [`Error::NotARing`] unless `c < mu < a`; [`Error::NotFinite`].
+    /// [`Error::NotARing`] unless `c < mu < a`; [`Error::NotFinite`], [`Error::LengthOutOfRange`].
     pub fn villarceau_circle(&self, phi: f64, sign: f64) -> Result<Circle, Error> {
         self.require_ring()?;
         let (sin, cos) = crate::frame::finite("phi", phi)?.sin_cos();
@@ -36,7 +36,7 @@ impl Quartic {
     /// As [`Quartic::villarceau_circle`].
     pub fn villarceau_circles_at(&self, point: DVec3) -> Result<[Circle; 2], Error> {
         self.require_ring()?;
-        crate::frame::finite_vector("point", point)?;
+        crate::frame::place("point", point)?;
         let p = self.frame().point_to_local(point);
         let (a, c, mu) = (self.a(), self.c(), self.mu());
         let x = mu * p.x - a * c;

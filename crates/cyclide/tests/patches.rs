@@ -295,6 +295,64 @@ fn the_atlas_of_a_parabolic_cyclide_reaches_infinity() {
     }
 }
 
+/// The collinearity of the tangent spheres is decided to 1e-9, not to the square root of the rounding.
+#[test]
+fn patches_of_cones_and_cylinders_are_named() {
+    let mut random = Random(17);
+    for _ in 0..500 {
+        let place = frame(&mut random, 1.0);
+        let (half, height) = (random.between(0.2, 1.4), random.between(0.3, 2.0));
+        let radii = [random.between(0.4, 2.0), random.between(0.4, 2.0)];
+        let end = radii[usize::from(random.unit() < 0.5)];
+        let row = |share: f64| {
+            let (radius, z) = (radii[0] + share * (end - radii[0]), share * height);
+            [
+                (1.0, half.cos(), -half.sin()),
+                (half.cos(), 1.0, 0.0),
+                (1.0, half.cos(), half.sin()),
+            ]
+            .map(|(w, c, s)| {
+                let local = DVec3::new(radius * c, radius * s, z * w);
+                MassPoint::from_homogeneous(w, place.vector_to_world(local) + w * place.origin())
+            })
+        };
+        let net = Biquadratic::new([row(0.0), row(0.5), row(1.0)]).unwrap();
+        assert_eq!(convert(&net), Err(Error::ConeOrCylinder));
+        assert_eq!(convert(&net.transposed()), Err(Error::ConeOrCylinder));
+    }
+}
+
+/// The free direction of a torus points to the centre of the first circle, whichever way the net's normals point.
+#[test]
+fn a_torus_starts_at_angle_zero() {
+    let mut random = Random(18);
+    for _ in 0..500 {
+        let place = frame(&mut random, 1.0);
+        let (a, mu) = (random.between(0.5, 3.0), random.between(0.2, 4.0));
+        let surface = Dupin::quartic(a, 0.0, mu, place).unwrap();
+        let (first, second) = (span(&mut random), span(&mut random));
+        if !is_clear(&surface, first, second) {
+            continue;
+        }
+        let net = *surface.patch(first, second).unwrap().net();
+        let found = convert(&net).unwrap();
+        assert!((0.0..1e-12).contains(&found.first[0]));
+        let start = if first[1] > first[0] {
+            first[0]
+        } else {
+            -first[0]
+        };
+        let (sin, cos) = start.sin_cos();
+        let y = if first[1] > first[0] {
+            place.y()
+        } else {
+            -place.y()
+        };
+        let towards = cos * place.x() + sin * y;
+        assert!(found.surface.frame().x().distance(towards) < 1e-9);
+    }
+}
+
 #[test]
 fn hostile_nets_are_refused() {
     let good = *Dupin::quartic(3.0, 1.0, 2.0, Frame::WORLD)

@@ -184,6 +184,19 @@ pub enum Error {
         /// Updates made.
         updates: usize,
     },
+    /// A closed geodesic that follows the inner equator of a torus more closely than numbers can tell.
+    #[error(
+        "on the torus of radii {major} and {minor} the geodesic of {} turns about the axis and {} around the tube \
+         cannot be told from the inner equator", turns[0], turns[1]
+    )]
+    ThinTorus {
+        /// The radius of the middle circle.
+        major: f64,
+        /// The radius of the tube.
+        minor: f64,
+        /// The turns about the axis and around the tube.
+        turns: [u32; 2],
+    },
     /// A direction has no part in the tangent plane.
     #[error("the direction {direction:?} has no part in the plane of face {face}")]
     NoTangentialPart {

@@ -70,8 +70,8 @@ impl Pencil {
                 };
                 PencilKind::Poncelet {
                     limit_points: [
-                        (s + minus * t).recover_point()?,
-                        (s + plus * t).recover_point()?,
+                        LorentzVector::recover_point_between(s, minus, t)?,
+                        LorentzVector::recover_point_between(s, plus, t)?,
                     ],
                 }
             }

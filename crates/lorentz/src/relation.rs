@@ -179,8 +179,7 @@ fn same_unit_vector(s: LorentzVector, t: LorentzVector, tolerance: f64) -> bool 
 
 /// The light-like vector `s - sign t` of two touching spheres is their point of contact.
 fn contact(s: LorentzVector, t: LorentzVector, sign: f64) -> Object {
-    let vector = s - sign * t;
-    vector
-        .recover_point()
-        .unwrap_or(Object::Infinity { scale: vector.inf })
+    LorentzVector::recover_point_between(s, -sign, t).unwrap_or(Object::Infinity {
+        scale: (s - sign * t).inf,
+    })
 }

@@ -177,6 +177,20 @@ impl LorentzVector {
         })
     }
 
+    /// The point of the vector `s + factor t` that is known to be light-like. It is at infinity where the curvatures
+    /// cancel to rounding, a test that does not depend on the unit of length.
+    pub(crate) fn recover_point_between(s: Self, factor: f64, t: Self) -> Result<Object, Error> {
+        let sum = s + factor * t;
+        if sum.o.abs() <= ROUNDING * (s.o.abs() + (factor * t.o).abs()) {
+            return Ok(Object::Infinity { scale: sum.inf });
+        }
+        let point = Point::new(sum.v / sum.o)?;
+        Ok(Object::Point {
+            point,
+            scale: sum.o,
+        })
+    }
+
     /// Whether a unit vector is a plane: its curvature vanishes to rounding, and `v` is a unit vector without its help.
     pub(crate) fn is_flat(self) -> bool {
         self.o.abs() <= 4.0 * f64::EPSILON * self.max_abs() && (self.o * self.inf).abs() <= ROUNDING

@@ -382,3 +382,36 @@ fn sections_of_a_cone_have_their_foci_by_elementary_geometry() {
         }
     }
 }
+
+/// Concentric spheres have one limit point at infinity, whatever the unit of length; far apart ones have none there.
+#[test]
+fn limit_points_at_infinity_do_not_depend_on_the_unit() {
+    for unit in [1e-6, 1e-3, 1.0, 1e3, 1e6] {
+        for place in [DVec3::ZERO, dvec3(0.3, -1.1, 2.3) * unit] {
+            let (small, large) = (
+                sphere(place.x, place.y, place.z, 0.7 * unit),
+                sphere(place.x, place.y, place.z, -1.9 * unit),
+            );
+            let PencilKind::Poncelet { limit_points } = Pencil::new(small, large).unwrap().kind()
+            else {
+                panic!("another pencil")
+            };
+            let infinite = limit_points
+                .iter()
+                .filter(|point| matches!(point, Object::Infinity { .. }));
+            assert_eq!(infinite.count(), 1, "{limit_points:?}");
+        }
+        let apart = sphere(7.0 * unit, 0.0, 0.0, 2.0 * unit);
+        let PencilKind::Poncelet { limit_points } = Pencil::new(apart, sphere(0.0, 0.0, 0.0, unit))
+            .unwrap()
+            .kind()
+        else {
+            panic!("another pencil")
+        };
+        assert!(
+            limit_points
+                .iter()
+                .all(|point| matches!(point, Object::Point { .. }))
+        );
+    }
+}

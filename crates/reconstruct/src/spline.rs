@@ -174,7 +174,7 @@ impl<V: VectorSpace> CubicSpline<V> {
     ///
     /// # Errors
     /// [`Error::TooFew`] below two data, [`Error::LengthMismatch`], [`Error::NonFinite`],
-    /// [`Error::NotIncreasing`].
+    /// [`Error::NotIncreasing`]; [`Error::OutOfRange`] for values above 1e90 and intervals outside of 1e-90 to 1e90.
     pub fn new(knots: &[f64], values: &[V], end: EndCondition) -> Result<Self, Error> {
         check_values(knots, values)?;
         Ok(Self::solve(&SplineSystem::new(knots, end)?, values))
@@ -331,15 +331,27 @@ pub(crate) fn check_increasing(knots: &[f64]) -> Result<(), Error> {
             index,
         });
     }
-    match knots.windows(2).position(|pair| pair[1] <= pair[0]) {
-        Some(i) => Err(Error::NotIncreasing {
+    if let Some(i) = knots.windows(2).position(|pair| pair[1] <= pair[0]) {
+        return Err(Error::NotIncreasing {
             index: i + 1,
             previous: knots[i],
             next: knots[i + 1],
+        });
+    }
+    let mut intervals = knots.windows(2).map(|pair| pair[1] - pair[0]);
+    match intervals.find(|interval| !(1.0 / EXTREME..=EXTREME).contains(interval)) {
+        Some(value) => Err(Error::OutOfRange {
+            what: "the interval of arc lengths",
+            value,
+            range: [1.0 / EXTREME, EXTREME],
         }),
         None => Ok(()),
     }
 }
+
+/// Intervals and values stay below this, intervals also above its inverse: moments are values over squares of intervals,
+/// which a double then holds.
+const EXTREME: f64 = 1e90;
 
 fn check_values<V: VectorSpace>(knots: &[f64], values: &[V]) -> Result<(), Error> {
     if values.len() != knots.len() {
@@ -349,10 +361,17 @@ fn check_values<V: VectorSpace>(knots: &[f64], values: &[V]) -> Result<(), Error
             got: values.len(),
         });
     }
-    match values.iter().position(|v| !v.is_finite()) {
-        Some(index) => Err(Error::NonFinite {
+    if let Some(index) = values.iter().position(|v| !v.is_finite()) {
+        return Err(Error::NonFinite {
             what: "value",
             index,
+        });
+    }
+    match values.iter().find(|v| v.magnitude() > EXTREME) {
+        Some(value) => Err(Error::OutOfRange {
+            what: "the size of a value",
+            value: value.magnitude(),
+            range: [0.0, EXTREME],
         }),
         None => Ok(()),
     }

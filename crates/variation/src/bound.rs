@@ -4,7 +4,8 @@
 //! signs were counted.
 
 use crate::Error;
-use crate::polar::{Affine, polar_derivative};
+use crate::finite::finite_degree;
+use crate::polar::{Affine, check_pole_count, polar_derivative};
 use crate::sign_changes::{
     Signed, sign_changes, sign_changes_by_parity, sign_changes_left, sign_changes_right,
 };
@@ -68,16 +69,13 @@ where
 /// are taken on the same interval. `k = l` is the classical variation diminishing property.
 ///
 /// # Errors
-/// [`Error::NoCoefficients`]; [`Error::IndexOrder`] unless `k <= l <= n`.
+/// [`Error::NoCoefficients`]; [`Error::IndexOrder`] unless `k <= l <= n`; [`Error::NotFinite`].
 pub fn corollary_bound<P: Clone + Signed>(
     coefficients: &[P],
     k: usize,
     l: usize,
 ) -> Result<SplitBound<P>, Error> {
-    let degree = coefficients
-        .len()
-        .checked_sub(1)
-        .ok_or(Error::NoCoefficients)?;
+    let degree = finite_degree(coefficients)?;
     if k > l || l > degree {
         return Err(Error::IndexOrder { k, l, degree });
     }
@@ -105,7 +103,7 @@ pub struct ChainBound<P> {
 /// leaves its two end values behind. Cost O(n) a pole.
 ///
 /// # Errors
-/// [`Error::NoCoefficients`], [`Error::TooManyPoles`], [`Error::PoleOutside`].
+/// [`Error::NoCoefficients`], [`Error::TooManyPoles`], [`Error::PoleOutside`], [`Error::NotFinite`].
 ///
 /// # Examples
 /// ```
@@ -122,16 +120,7 @@ where
     P: Affine + Signed,
     P::Parameter: UnitParameter,
 {
-    let degree = coefficients
-        .len()
-        .checked_sub(1)
-        .ok_or(Error::NoCoefficients)?;
-    if poles.len() > degree {
-        return Err(Error::TooManyPoles {
-            poles: poles.len(),
-            degree,
-        });
-    }
+    check_pole_count(coefficients, poles.len())?;
     if let Some(index) = poles.iter().position(|pole| !pole.in_unit()) {
         return Err(Error::PoleOutside { index });
     }
@@ -163,16 +152,7 @@ pub fn chain_bound_by(
     count: usize,
     strategy: PoleStrategy,
 ) -> Result<ChainBound<f64>, Error> {
-    let degree = coefficients
-        .len()
-        .checked_sub(1)
-        .ok_or(Error::NoCoefficients)?;
-    if count > degree {
-        return Err(Error::TooManyPoles {
-            poles: count,
-            degree,
-        });
-    }
+    check_pole_count(coefficients, count)?;
     let mut chain = Chain::new(coefficients);
     let mut best = chain.bound(coefficients);
     for _ in 0..count {

@@ -6,8 +6,7 @@ use crate::Error;
 use crate::arithmetic::{self, Form, Number, add, binomial, convolve, roots_of, subtract};
 use crate::bound::{ChainBound, chain_bound};
 use crate::line::{
-    ChordForm, CircleForm, ImplicitCurve, ImplicitForm, Line, LineForm, Plane, PlaneForm,
-    check_finite,
+    ChordForm, CircleForm, ImplicitCurve, ImplicitForm, Line, LineForm, check_finite,
 };
 use crate::root::{Interval, Root, Roots};
 use crate::solver::Solver;
@@ -313,36 +312,6 @@ pub(crate) fn check_weights(points: usize, weights: &[f64]) -> Result<(), Error>
         }
     }
     Ok(())
-}
-
-/// The parameters at which a space curve, polynomial or rational, meets a plane.
-///
-/// # Errors
-/// [`Error::NoControlPoints`], [`Error::NotFinite`], [`Error::WeightCount`], [`Error::WeightNotPositive`];
-/// [`Error::LiesOn`] for a curve in the plane.
-pub fn meet_plane(points: &[DVec3], weights: Option<&[f64]>, plane: Plane) -> Result<Roots, Error> {
-    if points.is_empty() {
-        return Err(Error::NoControlPoints);
-    }
-    for p in points {
-        check_finite(p.to_array())?;
-    }
-    if let Some(weights) = weights {
-        check_weights(points.len(), weights)?;
-    }
-    let mut solver = Solver::new();
-    match roots_of(
-        &PlaneForm {
-            points,
-            weights,
-            plane,
-        },
-        Interval::UNIT,
-        &mut solver,
-    ) {
-        Err(Error::IdenticallyZero) => Err(Error::LiesOn),
-        found => found.map(Roots::from_slice),
-    }
 }
 
 /// The numerator of the derivative of `direction . P`.

@@ -7,10 +7,10 @@ pub enum Error {
     /// The list of coefficients is empty.
     #[error("a polynomial needs at least one coefficient")]
     NoCoefficients,
-    /// A number of the input is NaN or infinite.
-    #[error("number {index} of the input is not finite: {value}")]
+    /// A number of the input, or one that overflowed, is NaN or infinite.
+    #[error("number {index} is not finite: {value}")]
     NotFinite {
-        /// Its place in the list that was given.
+        /// Its place in the list that was given or computed.
         index: usize,
         /// The offending number.
         value: f64,

@@ -44,6 +44,7 @@
 //! | | crossings with a curve, with itself | [`Curve::meet_curve`], [`Curve::self_meetings`], as [`Meeting`]s |
 //! | | extrema, inflections | [`Curve::extrema`], [`Curve::inflections`] |
 //! | a space curve | hits with a [`Plane`] | [`meet_plane`] |
+//! | | how many at most, without solving | [`plane_bound`] |
 //! | a solver to test | reproducible hard polynomials, an exact judge | [`sets`], `Verdict`, `SturmChain` |
 //!
 //! # What the refined bound is good for
@@ -106,6 +107,7 @@ mod error;
 #[cfg(feature = "exact")]
 mod exact;
 mod fat_line;
+mod finite;
 mod input;
 mod isolate;
 #[cfg(feature = "exact")]
@@ -124,6 +126,7 @@ pub mod sets;
 mod sharp;
 mod sign_changes;
 mod solver;
+mod space_curve;
 #[cfg(feature = "exact")]
 mod square_free;
 #[cfg(feature = "exact")]
@@ -136,8 +139,9 @@ pub use bound::{
     ChainBound, PoleStrategy, SplitBound, UnitParameter, chain_bound, chain_bound_by,
     corollary_bound, pole_bound,
 };
-pub use curve::{Curve, Hit, meet_plane};
+pub use curve::{Curve, Hit};
 pub use error::Error;
+pub use finite::Finite;
 pub use glam;
 #[cfg(feature = "exact")]
 pub use judge::Verdict;
@@ -157,6 +161,7 @@ pub use sign_changes::{
     sign_changes_right,
 };
 pub use solver::{Solver, roots, roots_of_all, roots_on};
+pub use space_curve::{meet_plane, plane_bound};
 #[cfg(feature = "exact")]
 pub use sturm::SturmChain;
 pub use tiers::DEFAULT_TOLERANCE;

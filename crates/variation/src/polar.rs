@@ -7,11 +7,12 @@
 use glam::{DVec2, DVec3};
 
 use crate::Error;
+use crate::finite::{Finite, check_all, finite_degree};
 
 /// What Bernstein coefficients may be: numbers, points of the plane or of space, exact rationals.
-pub trait Affine: Clone {
+pub trait Affine: Clone + Finite {
     /// The numbers that poles and arguments are.
-    type Parameter: Clone;
+    type Parameter: Clone + Finite;
 
     /// `(1 - share) * self + share * next`.
     #[must_use]
@@ -57,7 +58,7 @@ impl Affine for num_rational::BigRational {
 /// `n F_z = n F + (z - t) F'`.
 ///
 /// # Errors
-/// [`Error::NoCoefficients`]; [`Error::PolarOfConstant`] for degree 0.
+/// [`Error::NoCoefficients`]; [`Error::PolarOfConstant`] for degree 0; [`Error::NotFinite`], also on overflow.
 ///
 /// # Examples
 /// ```
@@ -71,37 +72,45 @@ pub fn polar_derivative<P: Affine>(
     coefficients: &[P],
     pole: &P::Parameter,
 ) -> Result<Vec<P>, Error> {
+    check_all(coefficients)?;
+    check_all(std::slice::from_ref(pole))?;
     match coefficients.len() {
         0 => Err(Error::NoCoefficients),
         1 => Err(Error::PolarOfConstant),
-        _ => Ok(coefficients
-            .windows(2)
-            .map(|p| p[0].mix(&p[1], pole))
-            .collect()),
+        _ => row_after(coefficients, pole),
     }
+}
+
+/// Refuses more poles than the degree, and coefficients that are not finite.
+pub(crate) fn check_pole_count<P: Finite>(coefficients: &[P], poles: usize) -> Result<(), Error> {
+    let degree = finite_degree(coefficients)?;
+    if poles > degree {
+        return Err(Error::TooManyPoles { poles, degree });
+    }
+    Ok(())
+}
+
+/// The row after one pole of a row of finite values, two at least.
+fn row_after<P: Affine>(row: &[P], pole: &P::Parameter) -> Result<Vec<P>, Error> {
+    let next: Vec<P> = row.windows(2).map(|p| p[0].mix(&p[1], pole)).collect();
+    // A pole far outside of [0, 1] extrapolates.
+    check_all(&next)?;
+    Ok(next)
 }
 
 /// The polar derivative with respect to several poles, in any order (they commute); degree `n - m` for `m` poles.
 ///
 /// # Errors
-/// [`Error::NoCoefficients`]; [`Error::TooManyPoles`] for more poles than the degree.
+/// [`Error::NoCoefficients`]; [`Error::TooManyPoles`] for more poles than the degree; [`Error::NotFinite`], also on overflow.
 pub fn polar_derivatives<P: Affine>(
     coefficients: &[P],
     poles: &[P::Parameter],
 ) -> Result<Vec<P>, Error> {
-    let degree = coefficients
-        .len()
-        .checked_sub(1)
-        .ok_or(Error::NoCoefficients)?;
-    if poles.len() > degree {
-        return Err(Error::TooManyPoles {
-            poles: poles.len(),
-            degree,
-        });
-    }
+    check_pole_count(coefficients, poles.len())?;
+    check_all(poles)?;
     let mut row = coefficients.to_vec();
     for pole in poles {
-        row = polar_derivative(&row, pole)?;
+        row = row_after(&row, pole)?;
     }
     Ok(row)
 }
@@ -109,12 +118,10 @@ pub fn polar_derivatives<P: Affine>(
 /// The blossom `f(u_1, .., u_n)`. Cost O(n^2).
 ///
 /// # Errors
-/// [`Error::NoCoefficients`]; [`Error::BlossomArity`] unless there are exactly `n` arguments.
+/// [`Error::NoCoefficients`]; [`Error::BlossomArity`] unless there are exactly `n` arguments; [`Error::NotFinite`], also on
+/// overflow.
 pub fn blossom<P: Affine>(coefficients: &[P], arguments: &[P::Parameter]) -> Result<P, Error> {
-    let degree = coefficients
-        .len()
-        .checked_sub(1)
-        .ok_or(Error::NoCoefficients)?;
+    let degree = finite_degree(coefficients)?;
     if arguments.len() != degree {
         return Err(Error::BlossomArity {
             degree,

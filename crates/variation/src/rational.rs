@@ -7,6 +7,7 @@ use crate::Error;
 use crate::arithmetic::{Number, binomial, compose};
 use crate::dyadic::Exact;
 use crate::exact::Decomposition;
+use crate::finite::finite_degree;
 
 impl Number for BigRational {
     fn exactly(x: f64) -> Self {
@@ -215,16 +216,7 @@ impl ExactCurve {
 /// # Errors
 /// [`Error::NoCoefficients`], [`Error::NotFinite`].
 pub fn to_power_form(coefficients: &[f64]) -> Result<Vec<f64>, Error> {
-    let degree = coefficients
-        .len()
-        .checked_sub(1)
-        .ok_or(Error::NoCoefficients)?;
-    if let Some(index) = coefficients.iter().position(|p| !p.is_finite()) {
-        return Err(Error::NotFinite {
-            index,
-            value: coefficients[index],
-        });
-    }
+    let degree = finite_degree(coefficients)?;
     let mut row: Vec<Exact> = coefficients.iter().map(|p| Exact::exactly(*p)).collect();
     let mut power = Vec::with_capacity(degree + 1);
     for k in 0..=degree {

@@ -1,8 +1,10 @@
 //! The counting functions of Section 4.2: sign changes with zeros counted as the statements need them.
 
+use crate::finite::Finite;
+
 /// A number that has a sign.
-pub trait Signed {
-    /// -1, 0 or 1.
+pub trait Signed: Finite {
+    /// -1, 0 or 1; 0 for NaN, which the functions that can refuse it do refuse.
     fn signum(&self) -> i8;
 }
 

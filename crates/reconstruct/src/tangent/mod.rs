@@ -5,10 +5,17 @@
 //! Journal 2, 1964), and its first axis is the tangent. Where the two kinds of sensor alternate, each field is
 //! first interpolated in the body frame to all places.
 
+mod channel;
+mod tangents;
+mod triad;
+
+use channel::{Channel, Stencil, cardinal_values, stencil};
+use triad::{tangent_derivatives, triad};
+
+pub use tangents::Tangents;
+
+use crate::Error;
 use crate::sensor::{PARALLEL_FIELDS, Sensor, SensorKind, WorldFields};
-use crate::spatial::outer;
-use crate::spline::{SplineSystem, interval};
-use crate::{EndCondition, Error, SpatialRibbon};
 use glam::{DMat3, DVec3};
 use nalgebra::DMatrix;
 
@@ -19,73 +26,6 @@ const NEEDED: usize = 3;
 const NORMAL_GRAVITY: f64 = 0.1;
 /// An interpolated field vector shorter than this has lost its direction.
 const NEAR_ZERO: f64 = 0.1;
-
-/// A weighted sum of two values and two moments: a spline's value at a fixed place.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Stencil {
-    first: usize,
-    values: [f64; 2],
-    moments: [f64; 2],
-}
-
-/// The sensors that measure one field, with the spline that carries it to all places.
-#[derive(Clone, Debug, PartialEq)]
-struct Channel {
-    sensors: Vec<usize>,
-    system: SplineSystem,
-    /// How to evaluate at every place of the layout.
-    everywhere: Vec<Stencil>,
-}
-
-impl Channel {
-    fn new(sensors: &[Sensor], magnetic: bool, places: &[f64]) -> Result<Self, Error> {
-        let mine: Vec<usize> = (0..sensors.len())
-            .filter(|i| sensors[*i].is_magnetometer() == magnetic)
-            .collect();
-        if mine.len() < NEEDED {
-            let what = if magnetic {
-                "magnetometers"
-            } else {
-                "accelerometers"
-            };
-            return Err(Error::TooFew {
-                what,
-                needed: NEEDED,
-                got: mine.len(),
-            });
-        }
-        let knots: Vec<f64> = mine.iter().map(|i| sensors[*i].s).collect();
-        let system = SplineSystem::new(&knots, EndCondition::NotAKnot)?;
-        let everywhere = places.iter().map(|s| stencil(&knots, *s)).collect();
-        Ok(Self {
-            sensors: mine,
-            system,
-            everywhere,
-        })
-    }
-
-    fn value(&self, place: usize, values: &[DVec3], moments: &[DVec3]) -> DVec3 {
-        let Stencil {
-            first: i,
-            values: [a, b],
-            moments: [p, q],
-        } = self.everywhere[place];
-        values[i] * a + values[i + 1] * b + moments[i] * p + moments[i + 1] * q
-    }
-}
-
-fn stencil(knots: &[f64], s: f64) -> Stencil {
-    let first = interval(knots, s);
-    let h = knots[first + 1] - knots[first];
-    let b = (s - knots[first]) / h;
-    let a = 1.0 - b;
-    let sixth = h * h / 6.0;
-    Stencil {
-        first,
-        values: [a, b],
-        moments: [(a * a * a - a) * sixth, (b * b * b - b) * sixth],
-    }
-}
 
 /// Where the sensors of a ribbon sit and what they measure, with all that can be computed before a reading.
 ///
@@ -348,131 +288,10 @@ impl RibbonLayout {
     }
 }
 
-/// Value of each sensor's cardinal spline at each place.
-fn cardinal_values(channel: &Channel, places: usize) -> DMatrix<f64> {
-    let n = channel.sensors.len();
-    let mut matrix = DMatrix::zeros(places, n);
-    let mut moments = vec![0.0; n];
-    for k in 0..n {
-        let unit: Vec<f64> = (0..n).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
-        channel.system.moments_into(&unit, &mut moments);
-        for place in 0..places {
-            let Stencil {
-                first: i,
-                values: [a, b],
-                moments: [p, q],
-            } = channel.everywhere[place];
-            matrix[(place, k)] =
-                a * unit[i] + b * unit[i + 1] + p * moments[i] + q * moments[i + 1];
-        }
-    }
-    matrix
-}
-
-/// The right-handed triad of two directions: the first, their normal, and the third.
-fn triad(a: DVec3, m: DVec3) -> DMat3 {
-    let across = a.cross(m).normalize();
-    DMat3::from_cols(a, across, a.cross(across))
-}
-
-/// The matrix of `v -> a x v`.
-fn cross_matrix(a: DVec3) -> DMat3 {
-    DMat3::from_cols(a.cross(DVec3::X), a.cross(DVec3::Y), a.cross(DVec3::Z))
-}
-
-/// The derivatives of the tangent by the two interpolated body fields.
-fn tangent_derivatives(world: DMat3, [gravity, magnetic]: [DVec3; 2]) -> [DMat3; 2] {
-    let normalising = |v: DVec3| {
-        let unit = v.normalize();
-        (DMat3::IDENTITY - outer(unit, unit)) * (1.0 / v.length())
-    };
-    let (a, m) = (gravity.normalize(), magnetic.normalize());
-    let cross = a.cross(m);
-    let across = cross.normalize();
-    [
-        (normalising(gravity), DMat3::ZERO),
-        (DMat3::ZERO, normalising(magnetic)),
-    ]
-    .map(|(da, dm)| {
-        let d_across = normalising(cross) * (cross_matrix(a) * dm - cross_matrix(m) * da);
-        let d_third = cross_matrix(a) * d_across - cross_matrix(across) * da;
-        // The tangent is the sum of the world axes times the x components of the body axes.
-        [
-            (world.x_axis, da),
-            (world.y_axis, d_across),
-            (world.z_axis, d_third),
-        ]
-        .into_iter()
-        .fold(DMat3::ZERO, |sum, (axis, d)| sum + outer(axis, d.row(0)))
-    })
-}
-
-/// Unit tangents at given arc lengths, with how they depend on the readings.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Tangents {
-    s: Vec<f64>,
-    values: Vec<DVec3>,
-    sensitivity: DMatrix<f64>,
-}
-
-impl Tangents {
-    /// The arc lengths.
-    #[must_use]
-    pub fn arc_lengths(&self) -> &[f64] {
-        &self.s
-    }
-
-    /// The unit tangents in the world frame.
-    #[must_use]
-    pub fn values(&self) -> &[DVec3] {
-        &self.values
-    }
-
-    /// The ribbon through these tangents.
-    ///
-    /// # Errors
-    /// As [`SpatialRibbon::new`].
-    pub fn ribbon(&self) -> Result<SpatialRibbon, Error> {
-        SpatialRibbon::new(&self.s, &self.values)
-    }
-
-    /// The covariance of the position at every place of `ribbon` (which must come from
-    /// [`Tangents::ribbon`]), when every coordinate of every reading, in units of its field, carries an
-    /// independent error of standard deviation `sigma`. First order: readings to tangents to positions, each
-    /// step by its exact derivative.
-    ///
-    /// # Errors
-    /// [`Error::LengthMismatch`] for another ribbon.
-    pub fn position_covariance(
-        &self,
-        ribbon: &SpatialRibbon,
-        sigma: f64,
-    ) -> Result<Vec<DMat3>, Error> {
-        if ribbon.tangents().len() != self.values.len() {
-            let (expected, got) = (self.values.len(), ribbon.tangents().len());
-            return Err(Error::LengthMismatch {
-                what: "tangents of the ribbon",
-                expected,
-                got,
-            });
-        }
-        Ok(ribbon
-            .positions_sensitivity()
-            .iter()
-            .map(|row| {
-                let by_tangents =
-                    DMatrix::from_fn(3, 3 * row.len(), |i, j| row[j / 3].col(j % 3)[i]);
-                let by_readings = by_tangents * &self.sensitivity;
-                let covariance = &by_readings * by_readings.transpose() * (sigma * sigma);
-                DMat3::from_cols_array(&core::array::from_fn(|n| covariance[(n % 3, n / 3)]))
-            })
-            .collect())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::spatial::outer;
     use crate::testing::Noise;
 
     /// A strip with a known frame along the curve of the spatial tests.
