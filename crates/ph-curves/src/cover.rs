@@ -190,11 +190,16 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
                 .map_or(f64::INFINITY, |a| a.error / self.fitter.how.tolerance);
             match attempt {
                 Some(attempt) if excess <= 1.0 => {
+                    let full = tried >= search.most;
+                    let promise = if full {
+                        LENGTHENING.1
+                    } else {
+                        attempt.promise(excess)
+                    };
                     search.covered = tried;
-                    let factor = attempt.promise(excess);
-                    search.length = tried * factor.clamp(1.0, LENGTHENING.1);
+                    search.length = tried * promise.clamp(1.0, LENGTHENING.1);
                     longest = Some((part, attempt));
-                    if tried >= search.most || factor < LENGTHENING.0 || search.missed.is_finite() {
+                    if full || promise < LENGTHENING.0 || search.missed.is_finite() {
                         break;
                     }
                 }
@@ -236,65 +241,64 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
         };
     }
 
-    /// A first part of an interval, of about the length looked for: to its end, or to a knot, or to a place inside a span. It runs
-    /// through one inflection at most, and ends in it rather than near it. The inflection is given too, or else one nearby.
+    /// A first part of an interval, of about the length looked for. It runs through one inflection at most, and ends in it rather
+    /// than near it. The inflection is given too, or else one nearby.
     fn first_part(
         &self,
         rest: &Interval,
         search: &Search,
     ) -> Result<(Interval, Option<End>), Error> {
-        let course = &self.fitter.course;
         let start = rest.start;
-        let from = course.length_to(&start);
+        let course = &self.fitter.course;
+        let place = |end: &End| course.length_to(end) - course.length_to(&start);
         let mut ahead = self.inflections[self.passed..].iter();
         let (first, second) = (ahead.next(), ahead.next());
-        let place = |end: &End| course.length_to(end) - from;
         // Half way to a second inflection the curvature is far from zero.
-        let limit = match (first, second) {
+        let half_way = match (first, second) {
             (Some(first), Some(second)) => 0.5 * (place(first) + place(second)),
-            _ => search.most,
+            _ => f64::INFINITY,
         };
-        let limit = limit.min(search.most);
-        let aim = search.length.min(limit);
-        let below = limit.min(KNOT * aim);
-        let below = if below < search.missed {
-            below
+        let end = self.aim(rest, search, half_way.min(search.most))?;
+        if let Some(inflection) = first.filter(|first| place(first) <= place(&end)) {
+            let (before, after) = (place(inflection), place(&end) - place(inflection));
+            let near = before.min(after) < INTO_INFLECTION * place(&end);
+            let inside = inflection.parameter() > start.parameter();
+            let end = if inside && near { *inflection } else { end };
+            return Ok((Interval { start, end }, Some(*inflection)));
+        }
+        let behind = self.inflections[..self.passed].last();
+        let before = behind.map(|behind| (-place(behind), behind));
+        let after = first.map(|first| (place(first) - place(&end), first));
+        let beside = before
+            .into_iter()
+            .chain(after)
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .filter(|(away, _)| *away <= NEAR * place(&end))
+            .map(|(_, inflection)| *inflection);
+        Ok((Interval { start, end }, beside))
+    }
+
+    /// An end at about the length looked for, not beyond `limit`: that of the interval, or a knot, or a place inside a span.
+    fn aim(&self, rest: &Interval, search: &Search, limit: f64) -> Result<End, Error> {
+        let course = &self.fitter.course;
+        let length = search.length.min(limit);
+        if length >= course.length(rest) {
+            return Ok(rest.end);
+        }
+        let within = limit.min(KNOT * length);
+        let within = if within < search.missed {
+            within
         } else {
             SHORTENING.1 * search.missed
         };
-        let mut end = if aim >= course.length(rest) {
-            rest.end
-        } else if let Some(knot) = course.last_knot(rest, below) {
-            knot
-        } else {
-            let span = course.to_first_knot(rest);
-            let share = aim / course.length(&span);
-            let sliver = 1.0 - share < SLIVER * share;
-            let even = 1.0 / (1.0 + 2.0 * SLIVER);
-            course.end_at(&span, if sliver { even } else { share })?
-        };
-        let inflection = first.filter(|first| place(first) <= place(&end));
-        let Some(inflection) = inflection else {
-            // Beside the interval, if it is near.
-            let behind = self.inflections[..self.passed].last();
-            let before = behind.map(|behind| (-place(behind), behind));
-            let after = first.map(|first| (place(first) - place(&end), first));
-            let nearest = before
-                .into_iter()
-                .chain(after)
-                .min_by(|a, b| a.0.total_cmp(&b.0));
-            let near = nearest.filter(|(away, _)| *away <= NEAR * place(&end));
-            return Ok((
-                Interval { start, end },
-                near.map(|(_, inflection)| *inflection),
-            ));
-        };
-        let (before, after) = (place(inflection), place(&end) - place(inflection));
-        let near = INTO_INFLECTION * (before + after);
-        if inflection.parameter() > start.parameter() && before.min(after) < near {
-            end = *inflection;
+        if let Some(knot) = course.last_knot(rest, within) {
+            return Ok(knot);
         }
-        Ok((Interval { start, end }, Some(*inflection)))
+        let span = course.to_first_knot(rest);
+        let share = length / course.length(&span);
+        let sliver = 1.0 - share < SLIVER * share;
+        let even = 1.0 / (1.0 + 2.0 * SLIVER);
+        course.end_at(&span, if sliver { even } else { share })
     }
 }
 

@@ -1,4 +1,4 @@
-//! PH arcs that begin in an inflection: the normal stands still there, and the curvature is zero and continuous.
+//! PH arcs about an inflection: the normal stands still there, and the curvature runs through zero.
 
 use bezier_mass::bernstein;
 use glam::{DVec2, DVec3};

@@ -77,10 +77,28 @@ impl Support for Bumped {
 /// A closed rational curve made of dual Bézier arcs over half a turn and their images in the origin.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "Vec<DualCurve>", into = "Vec<DualCurve>")
+)]
 pub struct DualIndicatrix {
     arcs: Vec<DualCurve>,
     /// Normal angle at the start of each arc, and half a turn after the first.
     angles: Vec<f64>,
+}
+
+impl TryFrom<Vec<DualCurve>> for DualIndicatrix {
+    type Error = Error;
+
+    fn try_from(arcs: Vec<DualCurve>) -> Result<Self, Error> {
+        Self::try_new(arcs)
+    }
+}
+
+impl From<DualIndicatrix> for Vec<DualCurve> {
+    fn from(indicatrix: DualIndicatrix) -> Self {
+        indicatrix.arcs
+    }
 }
 
 /// Consecutive arcs must agree in normal and support to this share of the size.
