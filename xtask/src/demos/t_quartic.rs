@@ -196,7 +196,7 @@ fn spiral_plot() -> Result<Plot> {
         let joints: Vec<DVec2> = pairs.iter().map(|pair| pair.joint.point()).collect();
         plot.points(&joints, Marker::Dot, color.line());
     }
-    plot.view(dvec2(-2.1, -2.5), dvec2(4.2, 2.6))
+    plot.view(dvec2(-2.2, -3.1), dvec2(4.6, 2.2))
         .legend(Corner::TopRight);
     Ok(plot)
 }
