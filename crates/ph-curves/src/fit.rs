@@ -216,10 +216,14 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         let samples = [0.25, 0.5, 0.75].map(|share| self.tangent(interval, share));
         let alpha = ends.clamp_alpha(ends.fit_alpha(samples)).ok()?;
         let arc = ends.arc_of_positive(alpha);
+        let [r0, r1] = arc.end_radii();
+        // Nearly equal legs can leave a shape, and with it a cusp, that is rounding.
+        if r0 * r1 < 0.0 {
+            return None;
+        }
         let probe = Probe::new(&arc);
         let error =
             self.largest_difference(interval, &EVEN_SHARES, |normal| probe.support(normal))?;
-        let [r0, r1] = ends.end_radii(alpha);
         let agrees = |radius: f64, curvature: f64| {
             (radius * curvature - 1.0).abs() <= EQUAL_RADII.max(f64::EPSILON * radius.abs() / chord)
         };
