@@ -25,10 +25,13 @@ pub struct Approximation {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Arcs {
     /// Single PH arcs of class 9, rational of degree 10, which take point, tangent and curvature at both ends and up to
-    /// four supports in between; of degree 11 about an inflection. Order 10, G2 through inflections and over knots: the fewest
+    /// four supports in between; of degree 11 about an inflection. Order 10, G2 through inflections and over knots: few
     /// pieces, and the least time.
     #[default]
     Class9,
+    /// The same, with up to nine supports in between where that makes an arc longer: class 14, rational of degree 15. The fewest
+    /// arcs, also over knots where the third derivative of a spline jumps.
+    Class14,
     /// Pairs of Tschirnhausen quartics: lowest degree, monotone curvature on every arc, the curve's vertices kept.
     /// Order 5, G1 at inflections, in pieces that shrink towards them.
     Class3,
@@ -43,6 +46,15 @@ impl Approximation {
             arcs: Arcs::Class9,
             beta: 0.5,
             continuity: Joint::G2,
+        }
+    }
+
+    /// The same by the fewest arcs, of class up to 14.
+    #[must_use]
+    pub const fn fewest(tolerance: f64) -> Self {
+        Self {
+            arcs: Arcs::Class14,
+            ..Self::within(tolerance)
         }
     }
 
@@ -105,7 +117,7 @@ pub fn approximate<C: PlaneCurve + ?Sized>(
     }
     // Only arcs of class 9 can have a curvature of zero.
     let flattened = match how.arcs {
-        Arcs::Class9 => how.tolerance,
+        Arcs::Class9 | Arcs::Class14 => how.tolerance,
         Arcs::Class3 => 0.0,
     };
     let course = Course::new(curve, flattened)?;

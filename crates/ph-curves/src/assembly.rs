@@ -66,11 +66,11 @@ impl Assembly {
 
     /// Adds the pieces of an accepted attempt.
     pub(crate) fn accept(&mut self, interval: &Interval, attempt: &Attempt) -> Result<(), Error> {
-        let Interval { start, end } = *interval;
+        let Interval { start, end } = interval;
         let source = [start, end].map(|end| end.parameter());
         match attempt.fit {
             Fit::Pair([first, second]) => {
-                let joint = self.join(&start, true)?;
+                let joint = self.join(start, true)?;
                 self.push(
                     Piece::Arc(PlacedArc::new(start.point, first)),
                     source,
@@ -81,39 +81,48 @@ impl Assembly {
                     source,
                     Joint::G2,
                 );
-                self.last = Some((end, true));
+                self.last = Some((*end, true));
             }
             Fit::Wide(local) => {
-                let joint = self.join(&start, true)?;
+                let joint = self.join(start, true)?;
                 self.push(
                     Piece::Wide(PlacedArc::new(start.point, local)),
                     source,
                     joint,
                 );
-                self.last = Some((end, true));
+                self.last = Some((*end, true));
+            }
+            Fit::Wider(local) => {
+                let joint = self.join(start, true)?;
+                self.push(
+                    Piece::Wider(PlacedArc::new(start.point, local)),
+                    source,
+                    joint,
+                );
+                self.last = Some((*end, true));
             }
             Fit::Inflected(arc) => {
-                let joint = self.join(&start, true)?;
+                let joint = self.join(start, true)?;
                 self.push(Piece::Inflected(arc), source, joint);
-                self.last = Some((end, true));
+                self.last = Some((*end, true));
             }
             Fit::Single(arc) => {
-                let joint = self.join(&start, attempt.matched)?;
+                let joint = self.join(start, attempt.matched)?;
                 self.push(Piece::Arc(PlacedArc::new(start.point, arc)), source, joint);
-                self.last = Some((end, attempt.matched));
+                self.last = Some((*end, attempt.matched));
             }
             Fit::Bridge if (end.point - start.point).length() > 4.0 * self.rounding => {
-                self.straight(start, end)?;
+                self.straight(*start, *end)?;
             }
             Fit::Bridge => {
                 if self.last.is_none() {
-                    self.join(&start, false)?;
-                    self.last = Some((start, false));
+                    self.join(start, false)?;
+                    self.last = Some((*start, false));
                 }
             }
         }
         self.error = self.error.max(attempt.error);
-        self.tangent_at_end = Some(end);
+        self.tangent_at_end = Some(*end);
         Ok(())
     }
 

@@ -48,18 +48,15 @@ impl End {
                 what: "a point or derivative of the curve",
             });
         }
-        let vanished = first.length_squared() <= VANISHING * VANISHING * second.length_squared();
-        let direction = if vanished {
-            curve.direction(span, t, side)
+        let square = first.length_squared();
+        let (direction, curvature) = if square <= VANISHING * VANISHING * second.length_squared() {
+            let direction = curve.direction(span, t, side).normalize_or_zero();
+            (direction, f64::INFINITY)
         } else {
-            first
+            let speed = square.sqrt();
+            (first / speed, first.perp_dot(second) / (square * speed))
         };
-        let normal = -direction.normalize_or_zero().perp();
-        let curvature = if vanished {
-            f64::INFINITY
-        } else {
-            curvature(first, second)
-        };
+        let normal = -direction.perp();
         Ok(Self {
             span,
             t,
@@ -169,15 +166,16 @@ impl<'a, C: PlaneCurve + ?Sized> Course<'a, C> {
                 End::at(curve, span, 1.0, Side::Before)?,
             ];
             let [middle, first, second] = curve.jet(span, 0.5);
-            if !middle.is_finite() {
+            let halves = both.map(|end| (middle - end.point).length());
+            if !(halves[0] + halves[1]).is_finite() {
                 return Err(Error::NonFinite {
                     what: "a point of the curve",
                 });
             }
-            for point in [both[0].point, middle, both[1].point] {
-                largest = largest.max(point.abs().max_element());
-            }
-            let halves = both.map(|end| (middle - end.point).length());
+            largest = largest
+                .max(both[0].point.abs().max_element())
+                .max(both[1].point.abs().max_element())
+                .max(middle.abs().max_element());
             for (end, half) in both.iter_mut().zip(halves) {
                 let nearly = end.curvature.abs() * half < NEARLY_FLAT;
                 if nearly && end.is_flat(curvature(first, second), half, tolerance) {
@@ -229,14 +227,15 @@ impl<'a, C: PlaneCurve + ?Sized> Course<'a, C> {
         from + (to - from) * end.t
     }
 
-    /// Span and local parameter at a length from the start of the curve, on the spans of an interval.
-    fn place(&self, interval: &Interval, length: f64) -> (usize, f64) {
-        let mut span = interval.start.span;
-        while span < interval.end.span && self.before[span + 1] <= length {
+    /// Span and local parameter at a length from the start of the curve, on the spans from `span` to that of `end`.
+    #[inline]
+    fn place(&self, mut span: usize, end: &End, length: f64) -> (usize, f64) {
+        while span < end.span && self.before[span + 1] <= length {
             span += 1;
         }
-        let [start, end] = [self.before[span], self.before[span + 1]];
-        let t = (length - start) / (end - start);
+        let [from, to] = [self.before[span], self.before[span + 1]];
+        let t = (length - from) / (to - from);
+        // A span may be a point.
         (
             span,
             if t.is_finite() {
@@ -255,7 +254,7 @@ impl<'a, C: PlaneCurve + ?Sized> Course<'a, C> {
             return (start.span, start.t + (end.t - start.t) * share);
         }
         let (from, to) = (self.length_to(start), self.length_to(end));
-        self.place(interval, from + (to - from) * share)
+        self.place(start.span, end, from + (to - from) * share)
     }
 
     /// Point and first two derivatives at a share of an interval.
@@ -263,6 +262,35 @@ impl<'a, C: PlaneCurve + ?Sized> Course<'a, C> {
     pub(crate) fn jet(&self, interval: &Interval, share: f64) -> [DVec2; 3] {
         let (span, t) = self.share(interval, share);
         self.curve.jet(span, t)
+    }
+
+    /// Points and first derivatives at increasing shares of an interval.
+    #[inline]
+    pub(crate) fn tangents<const K: usize>(
+        &self,
+        interval: &Interval,
+        shares: [f64; K],
+    ) -> [[DVec2; 2]; K] {
+        let Interval { start, end } = interval;
+        let mut tangents = [[DVec2::ZERO; 2]; K];
+        let tangent = |span: usize, t: f64| {
+            let [point, first, _] = self.curve.jet(span, t);
+            [point, first]
+        };
+        if start.span == end.span {
+            for k in 0..K {
+                tangents[k] = tangent(start.span, start.t + (end.t - start.t) * shares[k]);
+            }
+        } else {
+            let (from, to) = (self.length_to(start), self.length_to(end));
+            let mut span = start.span;
+            for k in 0..K {
+                let (here, t) = self.place(span, end, from + (to - from) * shares[k]);
+                tangents[k] = tangent(here, t);
+                span = here;
+            }
+        }
+        tangents
     }
 
     /// The same with the parameter there.

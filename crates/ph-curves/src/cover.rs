@@ -16,17 +16,19 @@ const HALF: f64 = 0.5;
 const LENGTHENING: (f64, f64) = (1.25, 2.0);
 /// A knot that lies beyond the length that is aimed at, but by less than this factor, is aimed at.
 const KNOT: f64 = 1.3;
-/// How much longer than the last a piece may be while attempts over more knots are held back.
-const STEADY: f64 = 1.1;
 /// An inflection this near to the tangent of a flat end, by the tolerance, lies in it.
 const FLAT: f64 = 0.01;
-/// An end nearer to an inflection than this share of the interval is moved into it.
+/// An end less than this share of the interval before an inflection is moved into it.
+const UP_TO_INFLECTION: f64 = 0.1;
+/// An inflection nearer to an end than this share of the interval is taken as the end.
 const INTO_INFLECTION: f64 = 0.02;
 /// A rest shorter than this share of a piece takes a part of that piece.
 const SLIVER: f64 = 0.3;
 /// Pieces that end at the next knot at the latest after an attempt over knots has failed, the first time and at most.
-const FIRST_HOLD: u32 = 4;
+const FIRST_HOLD: u32 = 16;
 const MOST_HOLD: u32 = 32;
+/// An error below this share of the tolerance ends the wait.
+const MUCH_ROOM: f64 = 1e-3;
 /// Attempts for one piece.
 const MOST_ATTEMPTS: u32 = 64;
 /// Pieces per span of the curve, beyond which its derivatives cannot belong to its points.
@@ -41,8 +43,8 @@ pub(crate) struct Cover<'a, C: ?Sized> {
     passed: usize,
     /// How long the next piece may become, to judge by the last ones; at first as long as a span.
     reach: Option<f64>,
-    /// The length of the last piece.
-    covered: f64,
+    /// How many knots the last piece runs over.
+    knots: usize,
     /// For how many pieces no more knots are run over than by the last, and for how many after the next vain attempt.
     hold: [u32; 2],
 }
@@ -56,7 +58,7 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
             inflections: Vec::new(),
             passed: 0,
             reach: None,
-            covered: 0.0,
+            knots: 0,
             hold: [0, FIRST_HOLD],
         }
     }
@@ -75,24 +77,27 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
                     Some(cut) => End::at_break(curve, span, *cut, Side::Before)?,
                     None => last,
                 };
-                match run {
-                    Some(before) if !straight && self.goes_on(&before.end, &start) => {
-                        if before.end.curvature == 0.0 && before.end.t == 1.0 {
-                            self.inflections.push(before.end);
+                let goes_on = |run: &Interval| !straight && self.goes_on(&run.end, &start);
+                match &mut run {
+                    Some(run) if goes_on(run) => {
+                        if run.end.curvature == 0.0 && run.end.t == 1.0 {
+                            self.inflections.push(run.end);
                         }
-                        start = before.start;
+                        run.end = end;
                     }
-                    Some(before) => self.run(before)?,
-                    None => {}
-                }
-                if straight {
-                    self.assembly.straight(start, end)?;
-                    run = None;
-                } else {
-                    run = Some(Interval { start, end });
+                    _ => {
+                        if let Some(run) = run.take() {
+                            self.run(run)?;
+                        }
+                        if straight {
+                            self.assembly.straight(start, end)?;
+                        } else {
+                            run = Some(Interval { start, end });
+                        }
+                    }
                 }
                 if let Some(cut) = cut {
-                    if cut.kind == BreakKind::Inflection && self.fitter.how.arcs == Arcs::Class9 {
+                    if cut.kind == BreakKind::Inflection && self.fitter.how.arcs != Arcs::Class3 {
                         self.inflections.push(end);
                     }
                     start = End::at_break(curve, span, *cut, Side::After)?;
@@ -133,7 +138,7 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
     /// Whether an arc may run over the joint of two intervals: an inflection, or a knot with continuous curvature. Arcs of class
     /// 3 have no inflection, and vertices can lie in knots.
     fn goes_on(&self, end: &End, start: &End) -> bool {
-        self.fitter.how.arcs == Arcs::Class9
+        self.fitter.how.arcs != Arcs::Class3
             && end.curvature.is_finite()
             && end.is_tangent_to(start)
             && end.has_curvature_of(start)
@@ -143,12 +148,11 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
     fn run(&mut self, run: Interval) -> Result<(), Error> {
         let mut rest = run;
         loop {
-            let (part, attempt) = self.longest(&rest)?;
-            self.assembly.accept(&part, &attempt)?;
-            if part.end.parameter() >= rest.end.parameter() {
+            let end = self.longest(&rest)?;
+            if end.parameter() >= rest.end.parameter() {
                 break;
             }
-            rest = self.fitter.course.rest(&rest, part.end);
+            rest = self.fitter.course.rest(&rest, end);
             let here = rest.start.parameter();
             let ahead = &self.inflections[self.passed..];
             self.passed += ahead.iter().take_while(|i| i.parameter() < here).count();
@@ -158,28 +162,16 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
         Ok(())
     }
 
-    /// The longest first part of an interval that one attempt covers, found by the order of the arcs.
-    fn longest(&mut self, rest: &Interval) -> Result<(Interval, Attempt), Error> {
-        let course = &self.fitter.course;
-        let (span, whole) = (
-            course.length(&course.to_first_knot(rest)),
-            course.length(rest),
-        );
-        let mut search = Search {
-            length: self.reach.unwrap_or(span),
-            most: if self.hold[0] > 0 {
-                whole.min(span.max(STEADY * self.covered))
-            } else {
-                whole
-            },
-            covered: 0.0,
-            missed: f64::INFINITY,
-        };
+    /// Covers the longest first part of an interval that one attempt covers, found by the order of the arcs; returns its end.
+    fn longest(&mut self, rest: &Interval) -> Result<End, Error> {
+        let start = rest.start;
+        let mut search = self.search(rest);
         let mut over_knots = false;
         let mut longest: Option<(Interval, Attempt)> = None;
         let mut excess = f64::INFINITY;
         for _ in 0..MOST_ATTEMPTS {
-            let (part, inflection) = self.first_part(rest, &search)?;
+            let (end, inflection) = self.first_part(rest, &search)?;
+            let part = Interval { start, end };
             let tried = self.fitter.course.length(&part);
             if longest.is_some() && !(tried > search.covered && tried < search.missed) {
                 break;
@@ -190,7 +182,7 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
                 .map_or(f64::INFINITY, |a| a.error / self.fitter.how.tolerance);
             match attempt {
                 Some(attempt) if excess <= 1.0 => {
-                    let full = tried >= search.most;
+                    let full = end.parameter() >= search.limit.parameter();
                     let promise = if full {
                         LENGTHENING.1
                     } else {
@@ -205,7 +197,7 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
                 }
                 attempt => {
                     search.missed = tried;
-                    over_knots |= part.end.span > part.start.span;
+                    over_knots |= end.span > start.span;
                     if longest.is_some() {
                         break;
                     }
@@ -218,17 +210,45 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
             }
         }
         self.reach = Some(search.length);
-        self.covered = search.covered;
+        if excess < MUCH_ROOM {
+            self.hold[0] = 0;
+        }
         self.pace(over_knots);
         let room = MOST_PIECES.saturating_mul(self.fitter.course.curve.spans());
-        longest
-            .filter(|_| self.assembly.len() < room)
-            .ok_or(Error::NotConverged {
-                start: rest.start.parameter(),
+        match &longest {
+            Some((part, attempt)) if self.assembly.len() < room => {
+                self.knots = part.end.span - start.span;
+                self.assembly.accept(part, attempt)?;
+                Ok(part.end)
+            }
+            _ => Err(Error::NotConverged {
+                start: start.parameter(),
                 end: rest.end.parameter(),
                 excess,
                 attempts: MOST_ATTEMPTS,
-            })
+            }),
+        }
+    }
+
+    /// What to try first for an interval.
+    fn search(&self, rest: &Interval) -> Search {
+        let course = &self.fitter.course;
+        let steady = rest.start.span + self.knots;
+        let limit = if self.hold[0] > 0 && steady < rest.end.span {
+            course.ends(steady)[1]
+        } else {
+            rest.end
+        };
+        let length_to = |end: End| course.length_to(&end) - course.length_to(&rest.start);
+        Search {
+            length: self
+                .reach
+                .unwrap_or_else(|| length_to(course.to_first_knot(rest).end)),
+            limit,
+            most: length_to(limit),
+            covered: 0.0,
+            missed: f64::INFINITY,
+        }
     }
 
     /// Waits with attempts over more knots the longer, the more often they were in vain.
@@ -241,13 +261,12 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
         };
     }
 
-    /// A first part of an interval, of about the length looked for. It runs through one inflection at most, and ends in it rather
-    /// than near it. The inflection is given too, or else one nearby.
-    fn first_part(
-        &self,
-        rest: &Interval,
-        search: &Search,
-    ) -> Result<(Interval, Option<End>), Error> {
+    /// The end of a first part of an interval, at about the length looked for. The part runs through one inflection at most, and
+    /// ends in it rather than near it. The inflection is given too, or else one nearby.
+    fn first_part(&self, rest: &Interval, search: &Search) -> Result<(End, Option<End>), Error> {
+        if self.inflections.is_empty() {
+            return Ok((self.aim(rest, search, search.most)?, None));
+        }
         let start = rest.start;
         let course = &self.fitter.course;
         let place = |end: &End| course.length_to(end) - course.length_to(&start);
@@ -259,12 +278,19 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
             _ => f64::INFINITY,
         };
         let end = self.aim(rest, search, half_way.min(search.most))?;
+        let just_beyond = |first: &&End| {
+            let beyond = place(first) - place(&end);
+            beyond > 0.0 && beyond < UP_TO_INFLECTION * place(&end) && place(first) < search.missed
+        };
+        if let Some(inflection) = first.filter(just_beyond) {
+            return Ok((*inflection, Some(*inflection)));
+        }
         if let Some(inflection) = first.filter(|first| place(first) <= place(&end)) {
             let (before, after) = (place(inflection), place(&end) - place(inflection));
             let near = before.min(after) < INTO_INFLECTION * place(&end);
             let inside = inflection.parameter() > start.parameter();
             let end = if inside && near { *inflection } else { end };
-            return Ok((Interval { start, end }, Some(*inflection)));
+            return Ok((end, Some(*inflection)));
         }
         let behind = self.inflections[..self.passed].last();
         let before = behind.map(|behind| (-place(behind), behind));
@@ -275,17 +301,17 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .filter(|(away, _)| *away <= NEAR * place(&end))
             .map(|(_, inflection)| *inflection);
-        Ok((Interval { start, end }, beside))
+        Ok((end, beside))
     }
 
-    /// An end at about the length looked for, not beyond `limit`: that of the interval, or a knot, or a place inside a span.
-    fn aim(&self, rest: &Interval, search: &Search, limit: f64) -> Result<End, Error> {
+    /// An end at about the length looked for, not beyond `most`: that of the search, or a knot, or a place inside a span.
+    fn aim(&self, rest: &Interval, search: &Search, most: f64) -> Result<End, Error> {
         let course = &self.fitter.course;
-        let length = search.length.min(limit);
-        if length >= course.length(rest) {
-            return Ok(rest.end);
+        let length = search.length.min(most);
+        if length >= search.most {
+            return Ok(search.limit);
         }
-        let within = limit.min(KNOT * length);
+        let within = most.min(KNOT * length);
         let within = if within < search.missed {
             within
         } else {
@@ -306,7 +332,8 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
 struct Search {
     /// The length to be tried.
     length: f64,
-    /// The length not to be exceeded.
+    /// The end not to be run over, and its length.
+    limit: End,
     most: f64,
     /// The longest that was covered, and the shortest that was not.
     covered: f64,

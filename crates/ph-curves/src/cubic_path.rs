@@ -180,6 +180,16 @@ fn bend([d0, d1, d2]: [DVec2; 3]) -> [f64; 3] {
     [d0.perp_dot(d1), 0.5 * d0.perp_dot(d2), d1.perp_dot(d2)]
 }
 
+/// Whether the bend of these legs is rounding.
+fn is_straight(legs: &[DVec2; 3], [a, b, c]: &[f64; 3]) -> bool {
+    let size = legs
+        .map(DVec2::abs)
+        .into_iter()
+        .fold(DVec2::ZERO, DVec2::max);
+    let size = size.max_element();
+    a.abs().max(2.0 * b.abs()).max(c.abs()) <= STRAIGHT * size * size
+}
+
 impl PlaneCurve for CubicPath {
     fn spans(&self) -> usize {
         self.cubics.len()
@@ -189,7 +199,7 @@ impl PlaneCurve for CubicPath {
         self.closed
     }
 
-    #[inline]
+    #[inline(always)]
     fn jet(&self, span: usize, t: f64) -> [DVec2; 3] {
         let cubic = &self.cubics[span];
         let [d0, d1, d2] = legs(cubic);
@@ -207,20 +217,14 @@ impl PlaneCurve for CubicPath {
     }
 
     fn is_straight(&self, span: usize) -> bool {
-        let [d0, d1, d2] = legs(&self.cubics[span]);
-        let size = d0.abs().max(d1.abs()).max(d2.abs()).max_element();
-        let bend = d0
-            .perp_dot(d1)
-            .abs()
-            .max(d1.perp_dot(d2).abs())
-            .max(d0.perp_dot(d2).abs());
-        bend <= STRAIGHT * size * size
+        let legs = legs(&self.cubics[span]);
+        is_straight(&legs, &bend(legs))
     }
 
     fn inflections(&self, span: usize, breaks: &mut Vec<Break>) {
         let legs = legs(&self.cubics[span]);
         let bend = bend(legs);
-        if !self.is_straight(span) {
+        if !is_straight(&legs, &bend) {
             if one_signed(&bend) {
                 return;
             }

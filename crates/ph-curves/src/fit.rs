@@ -25,7 +25,7 @@ const SHARP: f64 = 1e-6;
 const SAMPLES: usize = 6;
 /// The true error exceeds the sampled one by a little; measured up to 1.15 on a thousand random splines.
 const PEAK: f64 = 1.16;
-/// The same where arcs of class 9 are wanted: parts are not cut at vertices.
+/// The same where arcs of other classes are wanted: parts are not cut at vertices.
 const UNCUT_PEAK: f64 = 2.0;
 
 /// What replaces an interval of the curve; arcs are about its start point.
@@ -37,6 +37,8 @@ pub(crate) enum Fit {
     Single(TQuartic),
     /// One arc of class 9 with the curve's curvatures at both ends.
     Wide(PhArc<10>),
+    /// The same of class 14.
+    Wider(PhArc<15>),
     /// The same about an inflection; not about the start point.
     Inflected(InflectedArc),
     /// A corner, a segment and a corner.
@@ -72,12 +74,12 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         };
         let within = inflection.filter(contains);
         let attempt = match (self.how.arcs, within) {
-            (Arcs::Class9, Some(inflection)) => self.about(interval, inflection),
-            (Arcs::Class9, None) => self
+            (Arcs::Class3, _) => self.element_to_element(interval, chord),
+            (_, Some(inflection)) => self.about(interval, inflection),
+            (_, None) => self
                 .beside(interval, inflection)
                 .filter(|attempt| attempt.error <= self.how.tolerance)
                 .or_else(|| self.element_to_element(interval, chord)),
-            (Arcs::Class3, _) => self.element_to_element(interval, chord),
         };
         attempt
             .or_else(|| self.single_or_none(interval, within, chord))
@@ -87,7 +89,7 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
             })
     }
 
-    /// An arc of class 3 where it is the best that there is: for class 9 only where an end has no curvature that could be matched.
+    /// An arc of class 3 where it is the best that there is: for other classes only where an end has no curvature that could be matched.
     fn single_or_none(
         &self,
         interval: &Interval,
@@ -100,7 +102,7 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
             start.parameter() < at && at < end.parameter()
         });
         let turning = start.turning_to(end);
-        let matchable = self.how.arcs == Arcs::Class9
+        let matchable = self.how.arcs != Arcs::Class3
             && turning.sine.abs() > LEAST_G2_TURNING
             && [start, end]
                 .iter()
@@ -111,7 +113,7 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
 
     /// Whether an end has a curvature that arcs of this chord can have.
     fn is_curved(end: &End, chord: f64) -> bool {
-        (FLAT.recip() / chord..SHARP.recip() / chord).contains(&end.curvature.abs())
+        (FLAT.recip()..SHARP.recip()).contains(&(end.curvature.abs() * chord))
     }
 
     /// Arcs without inflection with the curvatures of the ends.
@@ -124,9 +126,9 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
             return None;
         }
         match (self.how.arcs, self.how.continuity) {
-            (Arcs::Class9, _) => self.wide(interval),
             (Arcs::Class3, Joint::G2) => self.pair(interval),
             (Arcs::Class3, _) => None,
+            (Arcs::Class9 | Arcs::Class14, _) => self.wide(interval),
         }
     }
 

@@ -78,7 +78,7 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         } else {
             &SHARES
         };
-        let error = largest_between(shares, f64::INFINITY, |share| {
+        let error = largest_between(shares, |share| {
             let (own, numerator) = sample(share)?;
             let t = (own - from) / (1.0 - from);
             let difference = arc.support_numerator(own) - numerator;

@@ -16,6 +16,8 @@ pub enum Piece {
     Arc(PlacedArc),
     /// A PH arc of class 9.
     Wide(PlacedArc<10>),
+    /// A PH arc of class 14.
+    Wider(PlacedArc<15>),
     /// A PH arc of class 9 about an inflection, which may lie inside, at an end, or beside it.
     Inflected(InflectedArc),
 }
@@ -165,6 +167,7 @@ impl Piece {
             Self::Segment(segment) => segment.start.lerp(segment.end, t),
             Self::Arc(arc) => arc.point(t),
             Self::Wide(arc) => arc.point(t),
+            Self::Wider(arc) => arc.point(t),
             Self::Inflected(arc) => arc.point(t),
         }
     }
@@ -176,6 +179,7 @@ impl Piece {
             Self::Segment(segment) => segment.normal,
             Self::Arc(arc) => arc.local.normal(t),
             Self::Wide(arc) => arc.local.normal(t),
+            Self::Wider(arc) => arc.local.normal(t),
             Self::Inflected(arc) => arc.normal(t),
         }
     }
@@ -187,6 +191,7 @@ impl Piece {
             Self::Segment(_) => f64::INFINITY,
             Self::Arc(arc) => arc.radius(t),
             Self::Wide(arc) => arc.radius(t),
+            Self::Wider(arc) => arc.radius(t),
             Self::Inflected(arc) => arc.radius(t),
         }
     }
@@ -198,6 +203,7 @@ impl Piece {
             Self::Segment(segment) => segment.end - segment.start,
             Self::Arc(arc) => arc.velocity(t),
             Self::Wide(arc) => arc.velocity(t),
+            Self::Wider(arc) => arc.velocity(t),
             Self::Inflected(arc) => arc.velocity(t),
         }
     }
@@ -212,6 +218,7 @@ impl Piece {
             }
             Self::Arc(arc) => arc.local.feet(point - arc.origin),
             Self::Wide(arc) => arc.local.feet(point - arc.origin),
+            Self::Wider(arc) => arc.local.feet(point - arc.origin),
             Self::Inflected(arc) => arc.feet(point),
         };
         let away = |t: f64| (self.point(t) - point).length();
@@ -227,6 +234,7 @@ impl Piece {
             Self::Segment(_) => 0.0,
             Self::Arc(arc) => arc.local.turning(),
             Self::Wide(arc) => arc.local.turning(),
+            Self::Wider(arc) => arc.local.turning(),
             Self::Inflected(arc) => arc.turning(),
         }
     }
@@ -246,6 +254,7 @@ impl Piece {
             }
             Self::Arc(arc) => Self::Arc(arc.offset(distance)),
             Self::Wide(arc) => Self::Wide(arc.offset(distance)),
+            Self::Wider(arc) => Self::Wider(arc.offset(distance)),
             Self::Inflected(arc) => Self::Inflected(arc.offset(distance)),
         }
     }
@@ -257,6 +266,7 @@ impl Piece {
             Self::Segment(segment) => (segment.end - segment.start).length(),
             Self::Arc(arc) => arc.moved().length(),
             Self::Wide(arc) => arc.moved().length(),
+            Self::Wider(arc) => arc.moved().length(),
             Self::Inflected(arc) => arc.length(),
         }
     }
@@ -277,6 +287,7 @@ impl Piece {
             Self::Segment(_) => Vec::new(),
             Self::Arc(arc) => arc.moved().cusp().into_iter().collect(),
             Self::Wide(arc) => arc.moved().cusps(),
+            Self::Wider(arc) => arc.moved().cusps(),
             Self::Inflected(arc) => arc.cusps(),
         }
     }
@@ -289,6 +300,7 @@ impl Piece {
         match self {
             Self::Arc(arc) => arc.part(from, to).map(Self::Arc),
             Self::Wide(arc) => arc.part(from, to).map(Self::Wide),
+            Self::Wider(arc) => arc.part(from, to).map(Self::Wider),
             Self::Inflected(arc) => arc.part(from, to).map(Self::Inflected),
             Self::Segment(segment) => {
                 if !(from >= 0.0 && from < to && to <= 1.0) {
@@ -319,12 +331,13 @@ impl Piece {
             }),
             Self::Arc(arc) => Self::Arc(arc.reverse()),
             Self::Wide(arc) => Self::Wide(arc.reverse()),
+            Self::Wider(arc) => Self::Wider(arc.reverse()),
             Self::Inflected(arc) => Self::Inflected(arc.reverse().flip()),
         }
     }
 
     /// Homogeneous Bernstein coefficients `(x0, x1, x2)` of the point form, with positive weights: degree 1 for a
-    /// segment, 4 for an arc of class 3, 10 for one of class 9, 11 for one about an inflection.
+    /// segment, 4 for an arc of class 3, 10 for one of class 9, 15 for one of class 14, 11 for one about an inflection.
     #[must_use]
     pub fn homogeneous(&self) -> Vec<DVec3> {
         match self {
@@ -333,6 +346,7 @@ impl Piece {
                 .to_vec(),
             Self::Arc(arc) => arc.homogeneous(),
             Self::Wide(arc) => arc.homogeneous(),
+            Self::Wider(arc) => arc.homogeneous(),
             Self::Inflected(arc) => arc.homogeneous(),
         }
     }

@@ -5,23 +5,31 @@ use glam::DVec2;
 use crate::complex::{conj, sqrt};
 use crate::course::{End, Interval};
 use crate::fit::{Attempt, Fit, Fitter};
-use crate::{PhArc, PlaneCurve, SupportJet};
+use crate::{Arcs, PhArc, PlaneCurve, SupportJet};
 
-/// Zeros of the ultraspherical polynomial of degree 4 for the weight `t^3 (1-t)^3`: the interpolation nodes.
+/// Zeros of the ultraspherical polynomial of degree 4 for the weight `t^3 (1-t)^3`: the interpolation nodes of class 9.
 pub(crate) const NODES: [f64; 4] = [0.1797, 0.387, 0.613, 0.8203];
-/// Shares between these nodes, where the error peaks.
+/// Shares between these nodes, where the error of class 9 peaks; the other nodes of class 14.
 pub(crate) const PEAKS: [f64; 5] = [0.1, 0.28, 0.5, 0.72, 0.9];
-/// The same, closer, for arcs that run over knots, where the error has other peaks.
+/// Shares between the nodes of class 14, where its error peaks.
+const LATE_PEAKS: [f64; 10] = [
+    0.05, 0.14, 0.23, 0.333, 0.444, 0.556, 0.667, 0.77, 0.86, 0.95,
+];
+/// Shares for arcs of class 9 over knots, where the error has other peaks.
 pub(crate) const CLOSE: [f64; 15] = [
     0.03, 0.09, 0.14, 0.22, 0.28, 0.34, 0.44, 0.5, 0.56, 0.66, 0.72, 0.78, 0.86, 0.91, 0.97,
 ];
 /// The true error exceeds that at the shares by a little: parts are not cut at vertices, where peaks move. The order makes
 /// the factor cheap.
 pub(crate) const PEAK: f64 = 2.0;
+/// The same at the closer shares of class 14.
+const LATE_PEAK: f64 = 1.3;
+/// An error of class 9 above this many tolerances is too large for class 14 too.
+const HOPELESS: f64 = 30.0;
+/// How often an arc is halved at most to show that it has no cusp.
+const HALVINGS: usize = 3;
 /// Slack of rounding of a parameter outside of `[0, 1]`.
 const SLACK: f64 = 1e-9;
-/// Binomial coefficients of degree 9.
-const BINOMIALS: [f64; 10] = [1.0, 9.0, 36.0, 84.0, 126.0, 126.0, 84.0, 36.0, 9.0, 1.0];
 
 /// The normals of an arc and its origin: the numerator of its support is a polynomial of the parameter of the normals.
 pub(crate) struct Frame {
@@ -35,8 +43,7 @@ pub(crate) struct Frame {
 
 /// A tangent of the curve in a frame.
 pub(crate) struct Sample {
-    /// Barycentric parameter `(1 - t, t)` of its normal.
-    s: f64,
+    /// The parameter of its normal.
     pub(crate) t: f64,
     /// The numerator `p |w|^2` of its support.
     pub(crate) numerator: f64,
@@ -83,7 +90,7 @@ impl Frame {
         let (s, t) = self.barycentric(normal, speed)?;
         let length = (w0 * s + w1 * t).length_squared();
         let numerator = normal.dot(point - self.origin) * length / speed;
-        numerator.is_finite().then_some(Sample { s, t, numerator })
+        numerator.is_finite().then_some(Sample { t, numerator })
     }
 
     /// Unit spinors h apart are at least cos(h/2) long in between: the square of that.
@@ -111,8 +118,8 @@ impl Frame {
         ]
     }
 
-    /// The six conditions at the ends are met by a polynomial of degree 5, here raised to 9.
-    fn ends(&self, start: &End, end: &End) -> [f64; 10] {
+    /// The six conditions at the ends are met by a polynomial of degree 5.
+    fn ends(&self, start: &End, end: &End) -> [f64; 6] {
         let jet = |e: &End, sense: f64| {
             let jet = SupportJet::of_element(e.point - self.origin, e.normal, e.curvature.recip());
             let slope = sense * jet.slope;
@@ -122,90 +129,269 @@ impl Frame {
     }
 }
 
-impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
-    /// One arc of class 9: six support coefficients from the elements at the ends, four from tangents in between, which
-    /// first tell whether class 5 or 7 would do.
-    pub(crate) fn wide(&self, interval: &Interval) -> Option<Attempt> {
-        let Interval { start, end } = interval;
-        let frame = Frame::new(start, end);
-        let mut g = frame.ends(start, end);
-        let sample = |share: f64| {
-            let [point, velocity, _] = self.course.jet(interval, share);
-            frame.sample(point, velocity)
-        };
+/// What tangents of the curve leave over the quintic through the ends, in columns.
+struct Remainder<const K: usize> {
+    /// Parameters of the normals.
+    t: [f64; K],
+    /// `t^3 (1-t)^3`, which changes nothing at the ends up to second derivatives.
+    weight: [f64; K],
+    /// Numerators of the supports less the quintic.
+    rest: [f64; K],
+}
 
-        let least_length = frame.least_length();
-        let allowed = self.how.tolerance * least_length / PEAK;
-        let (mut at, mut weight, mut rest) = ([0.0; 4], [0.0; 4], [0.0; 4]);
-        for (k, share) in NODES.into_iter().enumerate() {
-            let Sample { s, t, numerator } = sample(share)?;
-            let product = s * t;
-            (at[k], weight[k]) = (t, product * product * product);
-            rest[k] = numerator - bernstein_9(&g, s, t);
-        }
-        let (mut error, mut order) = (largest(rest), 6.0);
-        let over_knots = start.span < end.span;
-        let uneven = over_knots || is_uneven(at);
-        if error > allowed || uneven {
-            // The remainder over t^3 (1-t)^3, first as a line through the inner nodes, which is class 7 ...
-            let quotient: [f64; 4] = std::array::from_fn(|k| rest[k] / weight[k]);
-            let slope = (quotient[2] - quotient[1]) / (at[2] - at[1]);
-            let line = [quotient[1] - slope * at[1], slope, 0.0, 0.0];
-            error = largest([0, 3].map(|k| rest[k] - weight[k] * (line[0] + slope * at[k])));
-            order = 8.0;
-            if error <= allowed && !uneven {
-                add_cubic(&mut g, line);
-            } else {
-                // ... and then as a cubic through all four.
-                add_cubic(&mut g, newton(at, quotient));
-                order = 10.0;
-                // Over knots the excess tells nothing of the length to be tried next.
-                let (shares, enough): (&[f64], f64) = if over_knots {
-                    (&CLOSE, allowed)
-                } else {
-                    (&PEAKS, f64::INFINITY)
-                };
-                error = largest_between(shares, enough, |share| {
-                    let Sample { s, t, numerator } = sample(share)?;
-                    Some((t, bernstein_9(&g, s, t) - numerator))
-                })?;
-            }
-        }
+impl<const K: usize> Remainder<K> {
+    /// The factors of the weight at the nodes.
+    fn quotient(&self) -> [f64; K] {
+        std::array::from_fn(|k| self.rest[k] / self.weight[k])
+    }
 
-        // Bernstein coefficients of one sign certify that the arc has no cusp.
-        let arc = PhArc::from_parts(frame.spinors[0], frame.spinors[1], g);
-        let sign = end.curvature;
-        if !arc.radius_polynomial().iter().all(|r| r * sign > 0.0) {
-            return None;
-        }
-        Some(Attempt {
-            fit: Fit::Wide(arc),
-            error: PEAK * error / least_length,
-            order,
-            matched: true,
+    /// The largest difference from the weight times a factor.
+    fn largest_beyond(&self, factor: impl Fn(f64) -> f64) -> f64 {
+        let Self { t, weight, rest } = self;
+        (0..K).fold(0.0, |most, k| {
+            let difference: f64 = rest[k] - weight[k] * factor(t[k]);
+            most.max(difference.abs())
         })
     }
 }
 
-/// Degree 9 coefficients of the quintic with these values and first two derivatives at both ends, counted from each end.
-fn quintic(first: [f64; 3], last: [f64; 3]) -> [f64; 10] {
+impl Frame {
+    /// What tangents at points with velocities leave over a quintic; none if a normal lies outside of the arc.
+    #[inline]
+    fn remainder<const K: usize>(
+        &self,
+        quintic: &[f64; 6],
+        tangents: [[DVec2; 2]; K],
+    ) -> Option<Remainder<K>> {
+        let x = tangents.map(|[point, _]| point.x - self.origin.x);
+        let y = tangents.map(|[point, _]| point.y - self.origin.y);
+        let normal_x = tangents.map(|[_, velocity]| velocity.y);
+        let normal_y = tangents.map(|[_, velocity]| -velocity.x);
+        let ([w0, w1], (turn_y, turn_x)) = (self.spinors, self.half_turning);
+        let (mut t, mut weight, mut rest) = ([0.0; K], [0.0; K], [0.0; K]);
+        for k in 0..K {
+            let speed = (normal_x[k] * normal_x[k] + normal_y[k] * normal_y[k]).sqrt();
+            // The spinor of a normal bisects it and the start.
+            let cosine = speed + self.start.x * normal_x[k] + self.start.y * normal_y[k];
+            let sine = self.start.x * normal_y[k] - self.start.y * normal_x[k];
+            let before = turn_y * cosine - turn_x * sine;
+            let scale = 1.0 / (sine + before);
+            let (s, beyond) = (before * scale, sine * scale);
+            let (wx, wy) = (w0.x * s + w1.x * beyond, w0.y * s + w1.y * beyond);
+            let away = normal_x[k] * x[k] + normal_y[k] * y[k];
+            let numerator = away * (wx * wx + wy * wy) / speed;
+            let product = s * beyond;
+            t[k] = beyond;
+            weight[k] = product * product * product;
+            rest[k] = numerator - bernstein_5(quintic, s, beyond);
+        }
+        let inside = (0..K).all(|k| t[k] >= -SLACK && t[k] <= 1.0 + SLACK && rest[k].is_finite());
+        inside.then_some(Remainder { t, weight, rest })
+    }
+}
+
+impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
+    /// One arc of class 9 or 14: six support coefficients from the elements at the ends, the others from tangents in between,
+    /// which first tell whether a lower class would do.
+    pub(crate) fn wide(&self, interval: &Interval) -> Option<Attempt> {
+        let Interval { start, end } = interval;
+        let frame = Frame::new(start, end);
+        let quintic = frame.ends(start, end);
+        let allowed = self.how.tolerance * frame.least_length();
+        let over_knots = start.span < end.span;
+        let attempt = |fit: Option<Fit>, error: f64, order: f64| {
+            Some(Attempt {
+                fit: fit?,
+                error: error / frame.least_length(),
+                order,
+                matched: true,
+            })
+        };
+
+        let nodes = frame.remainder(&quintic, self.course.tangents(interval, NODES))?;
+        let uneven = is_uneven(nodes.t);
+        let error = PEAK * nodes.largest_beyond(|_| 0.0);
+        if error <= allowed && !uneven && !over_knots {
+            return attempt(frame.arc(quintic, [0.0; 4], end).map(Fit::Wide), error, 6.0);
+        }
+        // The remainder over t^3 (1-t)^3, first as a line through the inner nodes, which is class 7 ...
+        let quotient = nodes.quotient();
+        let slope = (quotient[2] - quotient[1]) / (nodes.t[2] - nodes.t[1]);
+        let line = |t: f64| quotient[1] + slope * (t - nodes.t[1]);
+        let error = PEAK * nodes.largest_beyond(line);
+        if error <= allowed && !uneven && !over_knots {
+            // Raised by two degrees.
+            let (a, b) = (line(0.0), line(1.0));
+            let inner = [a, 2.0 * a + b, a + 2.0 * b, b];
+            return attempt(frame.arc(quintic, inner, end).map(Fit::Wide), error, 8.0);
+        }
+        // ... then as a cubic through all four ...
+        let cubic = Newton::through(nodes.t, quotient);
+        let peaks = frame.remainder(&quintic, self.course.tangents(interval, PEAKS))?;
+        let mut error = PEAK * peaks.largest_beyond(|t| cubic.value(t));
+        if error <= allowed && (uneven || over_knots) {
+            let shares: &[f64] = if over_knots { &CLOSE } else { &PEAKS };
+            error = PEAK * self.largest_beyond(interval, &frame, &quintic, &cubic, shares)?;
+        }
+        let hopeful = allowed..HOPELESS * allowed;
+        if self.how.arcs != Arcs::Class14 || !hopeful.contains(&error) {
+            let arc = frame.arc(quintic, cubic.homogeneous(), end);
+            return attempt(arc.map(Fit::Wide), error, 10.0);
+        }
+        // ... and then through all nine.
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| (nodes.t[k], quotient[k]));
+        let quotient = peaks.quotient();
+        let [e, f, g, h, i] = [0, 1, 2, 3, 4].map(|k| (peaks.t[k], quotient[k]));
+        let all = [e, a, f, b, g, c, h, d, i];
+        let octic = Newton::through(all.map(|(t, _)| t), all.map(|(_, quotient)| quotient));
+        let error = if uneven {
+            self.largest_beyond(interval, &frame, &quintic, &octic, &LATE_PEAKS)?
+        } else {
+            let late = frame.remainder(&quintic, self.course.tangents(interval, LATE_PEAKS))?;
+            late.largest_beyond(|t| octic.value(t))
+        };
+        let arc = frame.arc(quintic, octic.homogeneous(), end);
+        attempt(arc.map(Fit::Wider), LATE_PEAK * error, 15.0)
+    }
+
+    /// The largest error of an arc at shares of an interval, and in between where the normals turn much.
+    fn largest_beyond<const K: usize>(
+        &self,
+        interval: &Interval,
+        frame: &Frame,
+        quintic: &[f64; 6],
+        factor: &Newton<K>,
+        shares: &[f64],
+    ) -> Option<f64> {
+        largest_between(shares, |share| {
+            let tangent = self.course.tangents(interval, [share]);
+            let Remainder { t, weight, rest } = frame.remainder(quintic, tangent)?;
+            Some((t[0], rest[0] - weight[0] * factor.value(t[0])))
+        })
+    }
+}
+
+impl Frame {
+    /// The arc whose support has this quintic and `t^3 (1-t)^3` times a polynomial, given by its coefficients of
+    /// `s^(K-1-k) t^k`; none if it may have a cusp.
+    fn arc<const K: usize, const N: usize>(
+        &self,
+        quintic: [f64; 6],
+        factor: [f64; K],
+        end: &End,
+    ) -> Option<PhArc<N>> {
+        // The quintic raised: a product with a power of s + t.
+        let (row, power) = (binomials::<N>(N - 1), binomials::<N>(N - 6));
+        let mut g = [0.0; N];
+        for (i, (c, binomial)) in quintic
+            .into_iter()
+            .zip([1.0, 5.0, 10.0, 10.0, 5.0, 1.0])
+            .enumerate()
+        {
+            for j in 0..N - 5 {
+                g[i + j] += c * binomial * power[j];
+            }
+        }
+        for k in 0..K {
+            g[3 + k] += factor[k];
+        }
+        for k in 0..N {
+            g[k] /= row[k];
+        }
+        let arc = PhArc::from_parts(self.spinors[0], self.spinors[1], g);
+        let radius = arc.radius_polynomial().map(|r| r * end.curvature);
+        is_positive(radius, HALVINGS).then_some(arc)
+    }
+}
+
+/// Whether a polynomial is positive on `[0, 1]` by the signs of its Bernstein coefficients, there or on repeatedly halved parts.
+fn is_positive<const N: usize>(coefficients: [f64; N], halvings: usize) -> bool {
+    if coefficients.iter().all(|c| *c > 0.0) {
+        return true;
+    }
+    if halvings == 0 || !(coefficients[0] > 0.0 && coefficients[N - 1] > 0.0) {
+        return false;
+    }
+    let (mut left, mut right) = (coefficients, coefficients);
+    for level in 1..N {
+        for k in 0..N - level {
+            right[k] = 0.5 * (right[k] + right[k + 1]);
+        }
+        left[level] = right[0];
+    }
+    is_positive(left, halvings - 1) && is_positive(right, halvings - 1)
+}
+
+/// A polynomial through values at nodes: Newton's divided differences.
+struct Newton<const K: usize> {
+    nodes: [f64; K],
+    coefficients: [f64; K],
+}
+
+impl<const K: usize> Newton<K> {
+    fn through(nodes: [f64; K], mut coefficients: [f64; K]) -> Self {
+        for level in 1..K {
+            for k in (level..K).rev() {
+                coefficients[k] =
+                    (coefficients[k] - coefficients[k - 1]) / (nodes[k] - nodes[k - level]);
+            }
+        }
+        Self {
+            nodes,
+            coefficients,
+        }
+    }
+
+    #[inline]
+    fn value(&self, t: f64) -> f64 {
+        let mut value = 0.0;
+        for k in (0..K).rev() {
+            value = value * (t - self.nodes[k]) + self.coefficients[k];
+        }
+        value
+    }
+
+    /// Its coefficients of `s^(K-1-k) t^k`, `s = 1 - t`: Horner's scheme with factors `t - node = (1 - node) t - node s`.
+    fn homogeneous(&self) -> [f64; K] {
+        let mut c = [0.0; K];
+        c[0] = self.coefficients[K - 1];
+        for degree in 1..K {
+            let (node, constant) = (
+                self.nodes[K - 1 - degree],
+                self.coefficients[K - 1 - degree],
+            );
+            let row = binomials::<K>(degree);
+            let mut below = 0.0;
+            for k in 0..=degree {
+                let here = c[k];
+                c[k] = (1.0 - node) * below - node * here + constant * row[k];
+                below = here;
+            }
+        }
+        c
+    }
+}
+
+/// Bernstein coefficients of the quintic with these values and first two derivatives at both ends, counted from each end.
+fn quintic(first: [f64; 3], last: [f64; 3]) -> [f64; 6] {
     let ends = |[value, slope, bend]: [f64; 3]| {
         let next = value + slope / 5.0;
         [value, next, bend / 20.0 + 2.0 * next - value]
     };
     let ([a, b, c], [f, e, d]) = (ends(first), ends(last));
-    // Raised by four degrees: a product with (s + t)^4 in scaled coefficients.
-    let scaled = [a, 5.0 * b, 10.0 * c, 10.0 * d, 5.0 * e, f];
-    let mut g = [0.0; 10];
-    for (i, c) in scaled.into_iter().enumerate() {
-        for (j, binomial) in [1.0, 4.0, 6.0, 4.0, 1.0].into_iter().enumerate() {
-            g[i + j] += c * binomial;
-        }
+    [a, b, c, d, e, f]
+}
+
+/// The binomial coefficients of a degree below `N`.
+const fn binomials<const N: usize>(degree: usize) -> [f64; N] {
+    let mut row = [0.0; N];
+    row[0] = 1.0;
+    let mut k = 1;
+    while k <= degree {
+        row[k] = row[k - 1] * (degree + 1 - k) as f64 / k as f64;
+        k += 1;
     }
-    for (g, binomial) in g.iter_mut().zip(BINOMIALS) {
-        *g /= binomial;
-    }
-    g
+    row
 }
 
 /// Parameters farther apart than this leave room for an error that samples do not show: those of a curve of slowly varying
@@ -217,20 +403,16 @@ fn is_uneven([a, b, c, d]: [f64; 4]) -> bool {
     a.max(b - a).max(c - b).max(d - c).max(1.0 - d) > APART
 }
 
-/// The largest error at increasing shares, and between two of them where their parameters in `[0, 1]` are far apart, or the first
-/// one above `enough`; `at` gives parameter and error at a share.
+/// The largest error at increasing shares, and between two of them where their parameters in `[0, 1]` are far apart; `at` gives
+/// parameter and error at a share.
 pub(crate) fn largest_between(
     shares: &[f64],
-    enough: f64,
     at: impl Fn(f64) -> Option<(f64, f64)>,
 ) -> Option<f64> {
     let (mut most, mut last) = (0.0_f64, (0.0, 0.0));
     for share in shares.iter().copied().chain([1.0]) {
         let (t, error) = if share < 1.0 { at(share)? } else { (1.0, 0.0) };
         most = most.max(error.abs());
-        if most > enough {
-            break;
-        }
         if t - last.1 > APART {
             for part in [0.25, 0.5, 0.75] {
                 let (_, error) = at(last.0 + part * (share - last.0))?;
@@ -242,49 +424,11 @@ pub(crate) fn largest_between(
     Some(most)
 }
 
-fn largest<const K: usize>(values: [f64; K]) -> f64 {
-    values.iter().fold(0.0, |most, value| most.max(value.abs()))
-}
-
-/// Coefficients by powers of the cubic through `(x, c)`: Newton's divided differences.
-fn newton(x: [f64; 4], mut c: [f64; 4]) -> [f64; 4] {
-    for level in 1..4 {
-        for k in (level..4).rev() {
-            c[k] = (c[k] - c[k - 1]) / (x[k] - x[k - level]);
-        }
-    }
-    let mut cubic = [c[3], 0.0, 0.0, 0.0];
-    for k in (0..3).rev() {
-        for i in (1..4).rev() {
-            cubic[i] = cubic[i - 1] - x[k] * cubic[i];
-        }
-        cubic[0] = c[k] - x[k] * cubic[0];
-    }
-    cubic
-}
-
-/// Adds `t^3 (1-t)^3` times a cubic by powers of t, which changes nothing at the ends up to second derivatives.
-fn add_cubic(g: &mut [f64; 10], [a, b, c, d]: [f64; 4]) {
-    let bernstein = [a, 3.0 * a + b, 3.0 * a + 2.0 * b + c, a + b + c + d];
-    for (i, scaled) in bernstein.into_iter().enumerate() {
-        g[3 + i] += scaled / BINOMIALS[3 + i];
-    }
-}
-
-/// Value of a Bernstein polynomial of degree 9 at `t = 1 - s`, as two halves of Horner's scheme.
+/// Value of a Bernstein polynomial of degree 5 at `t = 1 - s`.
 #[inline]
-fn bernstein_9(g: &[f64; 10], s: f64, t: f64) -> f64 {
+fn bernstein_5(g: &[f64; 6], s: f64, t: f64) -> f64 {
     let (s2, t2) = (s * s, t * t);
-    let (s4, t4) = (s2 * s2, t2 * t2);
-    let low = s4 * s * g[0]
-        + 9.0 * s4 * t * g[1]
-        + 36.0 * s2 * s * t2 * g[2]
-        + 84.0 * s2 * t2 * t * g[3]
-        + 126.0 * s * t4 * g[4];
-    let high = 126.0 * s4 * t * g[5]
-        + 84.0 * s2 * s * t2 * g[6]
-        + 36.0 * s2 * t2 * t * g[7]
-        + 9.0 * s * t4 * g[8]
-        + t4 * t * g[9];
-    s4 * low + t4 * high
+    let low = s2 * g[0] + 5.0 * s * t * g[1] + 10.0 * t2 * g[2];
+    let high = 10.0 * s2 * g[3] + 5.0 * s * t * g[4] + t2 * g[5];
+    s2 * s * low + t2 * t * high
 }

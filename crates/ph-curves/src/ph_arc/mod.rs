@@ -237,22 +237,32 @@ impl<const N: usize> PhArc<N> {
         let (dq0, dq1, ddq) = (q1 - q0, q2 - q1, q0 - 2.0 * q1 + q2);
         let m = Self::CLASS;
         let g = &self.g;
+        // Differences, and the same moved on by one and by two places: without branches this is quick.
+        let (mut step, mut step_before) = ([0.0; N], [0.0; N]);
+        for k in 0..m {
+            step[k] = g[k + 1] - g[k];
+            step_before[k + 1] = step[k];
+        }
+        let (mut bend, mut bend_before, mut bend_long_before) = ([0.0; N], [0.0; N], [0.0; N]);
+        for k in 0..m - 1 {
+            bend[k] = step[k + 1] - step[k];
+            bend_before[k + 1] = bend[k];
+            bend_long_before[k + 2] = bend[k];
+        }
         // Bernstein products of q with g'', q' with g' and q'' with g; the binomial ratios of the
         // products cancel the factors m and m - 1 of the derivatives.
-        let mut radius = g.map(|c| 2.0 * ddq * c);
-        for k in 0..m {
-            let step = 2.0 * (g[k + 1] - g[k]);
-            radius[k] -= (m - k) as f64 * dq0 * step;
-            radius[k + 1] -= (k + 1) as f64 * dq1 * step;
-        }
-        for k in 0..m - 1 {
-            let second = g[k] - 2.0 * g[k + 1] + g[k + 2];
-            radius[k] += ((m - k) * (m - k - 1)) as f64 * q0 * second;
-            radius[k + 1] += (2 * (m - k - 1) * (k + 1)) as f64 * q1 * second;
-            radius[k + 2] += ((k + 2) * (k + 1)) as f64 * q2 * second;
-        }
         let scale = 1.0 / (4.0 * self.kappa() * self.kappa());
-        radius.map(|c| c * scale)
+        let mut radius = [0.0; N];
+        for k in 0..N {
+            let left = f64::from(k as u32);
+            let right = m as f64 - left;
+            let slope = right * dq0 * step[k] + left * dq1 * step_before[k];
+            let bending = right * (right - 1.0) * q0 * bend[k]
+                + 2.0 * left * right * q1 * bend_before[k]
+                + left * (left - 1.0) * q2 * bend_long_before[k];
+            radius[k] = scale * (2.0 * (ddq * g[k] - slope) + bending);
+        }
+        radius
     }
 
     /// Signed radii at the two ends.

@@ -50,7 +50,13 @@ impl Bench for PhCurves {
                     tolerance,
                 };
                 case.offsets(&mut rows)?;
-                rows.push(case.trimmed()?);
+                rows.push(
+                    case.trimmed("trimmed, class 9", &Approximation::within(tolerance * SIZE))?,
+                );
+                rows.push(case.trimmed(
+                    "trimmed, class 14",
+                    &Approximation::fewest(tolerance * SIZE),
+                )?);
             }
         }
         for input in &DEGENERATE {
@@ -116,6 +122,7 @@ impl Case<'_> {
         };
         for (class, how) in [
             ("class 9", Approximation::within(absolute)),
+            ("class 14", Approximation::fewest(absolute)),
             ("class 3", Approximation::quartics(absolute)),
         ] {
             let convert = || -> Result<ArcSpline, ph_curves::Error> {
@@ -150,7 +157,7 @@ impl Case<'_> {
                 &cubic(peer_ns),
             ));
         }
-        rows.push(self.fitted(rows.len() - 4, rows));
+        rows.push(self.fitted(rows.len() - 6, rows));
         Ok(())
     }
 
@@ -186,7 +193,7 @@ impl Case<'_> {
     }
 
     /// The offset without loops against cavalier's, which gets arcs; the conversions are included.
-    fn trimmed(&self) -> Result<Value> {
+    fn trimmed(&self, work: &str, how: &Approximation) -> Result<Value> {
         let absolute = self.tolerance * SIZE;
         // Counter-clockwise loops are offset inwards.
         let distance = if ph_curves::PlaneCurve::is_closed(self.curve) {
@@ -194,9 +201,8 @@ impl Case<'_> {
         } else {
             DISTANCE
         };
-        let how = Approximation::within(absolute);
         let ours = || -> Result<Vec<ArcSpline>, ph_curves::Error> {
-            approximate(black_box(self.curve), &how)?
+            approximate(black_box(self.curve), how)?
                 .spline
                 .trimmed_offset(distance)
         };
@@ -213,7 +219,7 @@ impl Case<'_> {
         };
         let (ns, peer_ns, _) = self.timer.against(ours, theirs);
         Ok(row(
-            "trimmed, class 9",
+            work,
             self.name,
             self.tolerance,
             &Outcome {
