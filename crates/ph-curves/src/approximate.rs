@@ -92,13 +92,13 @@ const LEAST_TOLERANCE_ULPS: f64 = 64.0;
 /// Approximates `curve` by a spline of PH arcs and segments.
 ///
 /// The curve is cut at corners, cusps and straight spans, which stay segments. What lies between is covered from start to end by
-/// arcs of class 9, each as long as the tolerance allows, which interpolate the curve's elements at their ends with G2 contact and
+/// arcs of class 9 or 14, each as long as the tolerance allows, which interpolate the curve's elements at their ends with G2 contact and
 /// tangents in between. They run over knots with continuous curvature and through inflections, one each; near an inflection the
 /// arc is about it ([`InflectedArc`](crate::InflectedArc)). Circular arcs stay exact. Corners and cusps become fans of normals.
 ///
 /// [`Arcs::Class3`] cuts at knots, inflections and vertices too, and gives every part of monotone curvature two arcs
 /// ([`G2Pair`](crate::G2Pair)); it has no curvature to match at inflections, where the policy is one G1 arc on the adjacent part, in
-/// parts that shrink towards the point. So do both classes at cusps.
+/// parts that shrink towards the point. So do all classes at cusps.
 ///
 /// # Errors
 /// [`Error::BadTolerance`], [`Error::TensionOutOfRange`]; [`Error::ToleranceTooSmall`] with the resolution at this size;
@@ -115,7 +115,7 @@ pub fn approximate<C: PlaneCurve + ?Sized>(
     if !(how.beta > 0.0 && how.beta < 1.0) {
         return Err(Error::TensionOutOfRange { beta: how.beta });
     }
-    // Only arcs of class 9 can have a curvature of zero.
+    // Arcs of class 3 cannot have a curvature of zero.
     let flattened = match how.arcs {
         Arcs::Class9 | Arcs::Class14 => how.tolerance,
         Arcs::Class3 => 0.0,

@@ -313,11 +313,11 @@ fn is_positive<const N: usize>(coefficients: [f64; N], halvings: usize) -> bool 
         return false;
     }
     let (mut left, mut right) = (coefficients, coefficients);
-    for level in 1..N {
-        for k in 0..N - level {
-            right[k] = 0.5 * (right[k] + right[k + 1]);
+    for (level, first) in left.iter_mut().enumerate() {
+        *first = right[0];
+        for k in 1..N - level {
+            right[k - 1] = 0.5 * (right[k - 1] + right[k]);
         }
-        left[level] = right[0];
     }
     is_positive(left, halvings - 1) && is_positive(right, halvings - 1)
 }
