@@ -84,28 +84,12 @@ impl Assembly {
                 self.last = Some((*end, true));
             }
             Fit::Wide(local) => {
-                let joint = self.join(start, true)?;
-                self.push(
-                    Piece::Wide(PlacedArc::new(start.point, local)),
-                    source,
-                    joint,
-                );
-                self.last = Some((*end, true));
+                self.curved(interval, Piece::Wide(PlacedArc::new(start.point, local)))?;
             }
             Fit::Wider(local) => {
-                let joint = self.join(start, true)?;
-                self.push(
-                    Piece::Wider(PlacedArc::new(start.point, local)),
-                    source,
-                    joint,
-                );
-                self.last = Some((*end, true));
+                self.curved(interval, Piece::Wider(PlacedArc::new(start.point, local)))?;
             }
-            Fit::Inflected(arc) => {
-                let joint = self.join(start, true)?;
-                self.push(Piece::Inflected(arc), source, joint);
-                self.last = Some((*end, true));
-            }
+            Fit::Inflected(arc) => self.curved(interval, Piece::Inflected(arc))?,
             Fit::Single(arc) => {
                 let joint = self.join(start, attempt.matched)?;
                 self.push(Piece::Arc(PlacedArc::new(start.point, arc)), source, joint);
@@ -123,6 +107,14 @@ impl Assembly {
         }
         self.error = self.error.max(attempt.error);
         self.tangent_at_end = Some(*end);
+        Ok(())
+    }
+
+    /// Adds a piece with the curvatures of an interval's ends.
+    fn curved(&mut self, Interval { start, end }: &Interval, piece: Piece) -> Result<(), Error> {
+        let joint = self.join(start, true)?;
+        self.push(piece, [start, end].map(End::parameter), joint);
+        self.last = Some((*end, true));
         Ok(())
     }
 
