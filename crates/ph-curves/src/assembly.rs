@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::course::{End, Interval, Turning};
-use crate::fit::{Attempt, Fit};
+use crate::fit::Fit;
 use crate::piece::Segment;
 use crate::{Approximated, ArcSpline, Error, Joint, Piece, PlacedArc, TQuartic};
 
@@ -64,38 +64,31 @@ impl Assembly {
         Ok(())
     }
 
-    /// Adds the pieces of an accepted attempt.
-    pub(crate) fn accept(&mut self, interval: &Interval, attempt: &Attempt) -> Result<(), Error> {
+    /// Adds the pieces of an accepted fit with its error.
+    #[inline]
+    pub(crate) fn accept(
+        &mut self,
+        interval: &Interval,
+        fit: &Fit,
+        error: f64,
+    ) -> Result<(), Error> {
         let Interval { start, end } = interval;
-        let source = [start, end].map(|end| end.parameter());
-        match attempt.fit {
+        let at = start.point;
+        match *fit {
             Fit::Pair([first, second]) => {
-                let joint = self.join(start, true)?;
-                self.push(
-                    Piece::Arc(PlacedArc::new(start.point, first)),
-                    source,
-                    joint,
-                );
-                self.push(
-                    Piece::Arc(PlacedArc::new(start.point, second)),
-                    source,
-                    Joint::G2,
-                );
-                self.last = Some((*end, true));
+                let source = [start, end].map(End::parameter);
+                self.curved(interval, Piece::Arc(PlacedArc::new(at, first)), true)?;
+                self.push(Piece::Arc(PlacedArc::new(at, second)), source, Joint::G2);
             }
-            Fit::Wide(local) => {
-                self.curved(interval, Piece::Wide(PlacedArc::new(start.point, local)))?;
+            Fit::Single { arc, matched } => {
+                self.curved(interval, Piece::Arc(PlacedArc::new(at, arc)), matched)?;
             }
-            Fit::Wider(local) => {
-                self.curved(interval, Piece::Wider(PlacedArc::new(start.point, local)))?;
+            Fit::Wide(arc) => self.curved(interval, Piece::Wide(PlacedArc::new(at, arc)), true)?,
+            Fit::Wider(arc) => {
+                self.curved(interval, Piece::Wider(PlacedArc::new(at, arc)), true)?
             }
-            Fit::Inflected(arc) => self.curved(interval, Piece::Inflected(arc))?,
-            Fit::Single(arc) => {
-                let joint = self.join(start, attempt.matched)?;
-                self.push(Piece::Arc(PlacedArc::new(start.point, arc)), source, joint);
-                self.last = Some((*end, attempt.matched));
-            }
-            Fit::Bridge if (end.point - start.point).length() > 4.0 * self.rounding => {
+            Fit::Inflected(arc) => self.curved(interval, Piece::Inflected(arc), true)?,
+            Fit::Bridge if (end.point - at).length() > 4.0 * self.rounding => {
                 self.straight(*start, *end)?;
             }
             Fit::Bridge => {
@@ -105,20 +98,23 @@ impl Assembly {
                 }
             }
         }
-        self.error = self.error.max(attempt.error);
+        self.error = self.error.max(error);
         self.tangent_at_end = Some(*end);
         Ok(())
     }
 
-    /// Adds a piece with the curvatures of an interval's ends.
-    fn curved(&mut self, Interval { start, end }: &Interval, piece: Piece) -> Result<(), Error> {
-        let joint = self.join(start, true)?;
+    /// Adds a piece with the tangents of an interval's ends, and with their curvatures if it is `matched`.
+    #[inline]
+    fn curved(&mut self, interval: &Interval, piece: Piece, matched: bool) -> Result<(), Error> {
+        let Interval { start, end } = interval;
+        let joint = self.join(start, matched)?;
         self.push(piece, [start, end].map(End::parameter), joint);
-        self.last = Some((*end, true));
+        self.last = Some((*end, matched));
         Ok(())
     }
 
     /// Adds a piece and the joint before it.
+    #[inline]
     fn push(&mut self, piece: Piece, source: [f64; 2], joint: Joint) {
         if !self.pieces.is_empty() {
             self.joints.push(joint);
@@ -129,6 +125,7 @@ impl Assembly {
 
     /// Turns the normal to that of a piece that starts at `start`, by a corner if it differs, and returns the kind of
     /// the joint before that piece.
+    #[inline]
     fn join(&mut self, start: &End, matched: bool) -> Result<Joint, Error> {
         match self.last {
             Some((last, last_matched)) => {
@@ -142,6 +139,7 @@ impl Assembly {
     }
 
     /// Adds the fan of normals of a corner, if there is one, and returns the kind of the joint after it.
+    #[inline]
     fn turn(
         &mut self,
         last: &End,
@@ -149,13 +147,19 @@ impl Assembly {
         parameter: f64,
         matched: bool,
     ) -> Result<Joint, Error> {
-        if last.is_tangent_to(start) {
-            return Ok(if matched && last.has_curvature_of(start) {
-                Joint::G2
-            } else {
-                Joint::G1
-            });
+        if !last.is_tangent_to(start) {
+            self.corner(last, start, parameter)?;
+            return Ok(Joint::G1);
         }
+        Ok(if matched && last.has_curvature_of(start) {
+            Joint::G2
+        } else {
+            Joint::G1
+        })
+    }
+
+    /// Adds the fan of normals of a corner.
+    fn corner(&mut self, last: &End, start: &End, parameter: f64) -> Result<(), Error> {
         let Turning { cosine, sine } = last.turning_to(start);
         let mut angle = sine.atan2(cosine);
         if cosine < 0.0 && sine.abs() <= 1e-6 {
@@ -180,7 +184,7 @@ impl Assembly {
             normal = next;
         }
         self.corners += 1;
-        Ok(Joint::G1)
+        Ok(())
     }
 
     /// The spline of what was added, closed by a last joint if the curve is closed; `parameter` is that of its end.

@@ -6,11 +6,13 @@
 use glam::DVec2;
 
 /// Complex conjugate.
+#[inline]
 pub(crate) fn conj(z: DVec2) -> DVec2 {
     DVec2::new(z.x, -z.y)
 }
 
 /// Complex square.
+#[inline]
 pub(crate) fn square(z: DVec2) -> DVec2 {
     DVec2::new((z.x - z.y) * (z.x + z.y), 2.0 * z.x * z.y)
 }
@@ -21,6 +23,7 @@ pub(crate) fn divide(a: DVec2, b: DVec2) -> DVec2 {
 }
 
 /// Principal square root (non-negative real part), without overflow or cancellation.
+#[inline]
 pub(crate) fn sqrt(z: DVec2) -> DVec2 {
     let length = z.length();
     if length == 0.0 {

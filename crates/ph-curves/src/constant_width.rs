@@ -233,6 +233,7 @@ pub struct SupportJet {
 impl SupportJet {
     /// The jet of a curvature element: a point, its unit normal and the signed radius of curvature.
     #[must_use]
+    #[inline]
     pub fn of_element(point: DVec2, normal: DVec2, radius: f64) -> Self {
         let support = normal.dot(point);
         Self {

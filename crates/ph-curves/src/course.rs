@@ -36,6 +36,7 @@ pub(crate) struct End {
 
 impl End {
     /// The end at `t`, with the one-sided tangent where the derivative vanishes.
+    #[inline]
     pub(crate) fn at<C: PlaneCurve + ?Sized>(
         curve: &C,
         span: usize,
@@ -84,6 +85,7 @@ impl End {
 
     /// Whether an inflection is so near that it may as well be here: where the curvature rises from `k` with a rate `k'`, its zero is
     /// `s = k / k'` away, and in between the curve is `k s^2 / 3` from its tangent. `other` is the curvature at a distance.
+    #[inline]
     fn is_flat(&self, other: f64, distance: f64, tolerance: f64) -> bool {
         let here = self.curvature;
         let away = here / (other - here) * distance;
@@ -93,6 +95,7 @@ impl End {
     }
 
     /// The turn of the normal from here to another end.
+    #[inline]
     pub(crate) fn turning_to(&self, other: &Self) -> Turning {
         Turning {
             cosine: self.normal.dot(other.normal),
@@ -101,17 +104,20 @@ impl End {
     }
 
     /// Span number plus local parameter.
+    #[inline]
     pub(crate) fn parameter(&self) -> f64 {
         self.span as f64 + self.t
     }
 
     /// Whether a curve goes on in `next` with the same tangent.
+    #[inline]
     pub(crate) fn is_tangent_to(&self, next: &Self) -> bool {
         let Turning { cosine, sine } = self.turning_to(next);
         cosine > 0.0 && sine.abs() <= CORNER
     }
 
     /// Whether the curvature is the same in `next`.
+    #[inline]
     pub(crate) fn has_curvature_of(&self, next: &Self) -> bool {
         let (a, b) = (self.curvature, next.curvature);
         a == b || (a - b).abs() <= SAME_CURVATURE * a.abs().max(b.abs())
@@ -130,6 +136,7 @@ const MOST_TURNING_COSINE: f64 = -0.94;
 
 impl Turning {
     /// Whether one arc can turn so far.
+    #[inline]
     pub(crate) fn is_moderate(&self) -> bool {
         self.cosine > MOST_TURNING_COSINE
     }
@@ -158,34 +165,31 @@ impl<'a, C: PlaneCurve + ?Sized> Course<'a, C> {
     pub(crate) fn new(curve: &'a C, tolerance: f64) -> Result<Self, Error> {
         let mut ends = Vec::with_capacity(curve.spans());
         let mut before = Vec::with_capacity(curve.spans() + 1);
-        let (mut largest, mut length) = (0.0_f64, 0.0);
+        let (mut largest, mut length) = (DVec2::ZERO, 0.0);
         before.push(length);
         for span in 0..curve.spans() {
-            let mut both = [
-                End::at(curve, span, 0.0, Side::After)?,
-                End::at(curve, span, 1.0, Side::Before)?,
-            ];
+            let mut start = End::at(curve, span, 0.0, Side::After)?;
+            let mut end = End::at(curve, span, 1.0, Side::Before)?;
             let [middle, first, second] = curve.jet(span, 0.5);
-            let halves = both.map(|end| (middle - end.point).length());
-            if !(halves[0] + halves[1]).is_finite() {
+            let halves = [start, end].map(|end| (middle - end.point).length());
+            length += halves[0] + halves[1];
+            if !length.is_finite() {
                 return Err(Error::NonFinite {
                     what: "a point of the curve",
                 });
             }
-            largest = largest
-                .max(both[0].point.abs().max_element())
-                .max(both[1].point.abs().max_element())
-                .max(middle.abs().max_element());
-            for (end, half) in both.iter_mut().zip(halves) {
+            let farthest = start.point.abs().max(end.point.abs());
+            largest = largest.max(farthest).max(middle.abs());
+            for (end, half) in [&mut start, &mut end].into_iter().zip(halves) {
                 let nearly = end.curvature.abs() * half < NEARLY_FLAT;
                 if nearly && end.is_flat(curvature(first, second), half, tolerance) {
                     end.curvature = 0.0;
                 }
             }
-            length += halves[0] + halves[1];
-            ends.push(both);
+            ends.push([start, end]);
             before.push(length);
         }
+        let largest = largest.max_element();
         let rounding = f64::EPSILON * largest;
         let mut course = Self {
             curve,
@@ -203,25 +207,28 @@ impl<'a, C: PlaneCurve + ?Sized> Course<'a, C> {
     }
 
     /// Gives the end of one span and the start of another the same curvature if theirs differ by rounding.
+    #[inline]
     fn unify(&mut self, before: usize, after: usize) {
-        let shortest = [before, after]
-            .map(|span| self.before[span + 1] - self.before[span])
-            .into_iter()
-            .fold(f64::INFINITY, f64::min);
-        let noise = CURVATURE_ULPS * self.rounding / (shortest * shortest);
         let [end, start] = [self.ends[before][1], self.ends[after][0]];
-        let difference = (end.curvature - start.curvature).abs();
-        if end.is_tangent_to(&start) && (difference <= noise || end.has_curvature_of(&start)) {
+        let is_rounding = |difference: f64| {
+            let length = |span: usize| self.before[span + 1] - self.before[span];
+            let shortest = length(before).min(length(after));
+            difference.abs() <= CURVATURE_ULPS * self.rounding / (shortest * shortest)
+        };
+        let same = || end.has_curvature_of(&start) || is_rounding(end.curvature - start.curvature);
+        if end.is_tangent_to(&start) && same() {
             self.ends[after][0].curvature = end.curvature;
         }
     }
 
     /// Start and end of a span.
+    #[inline]
     pub(crate) fn ends(&self, span: usize) -> [End; 2] {
         self.ends[span]
     }
 
     /// Length from the start of the curve.
+    #[inline]
     pub(crate) fn length_to(&self, end: &End) -> f64 {
         let [from, to] = [self.before[end.span], self.before[end.span + 1]];
         from + (to - from) * end.t
@@ -306,6 +313,7 @@ impl<'a, C: PlaneCurve + ?Sized> Course<'a, C> {
     }
 
     /// The last knot inside an interval within a length of its start.
+    #[inline]
     pub(crate) fn last_knot(&self, interval: &Interval, length: f64) -> Option<End> {
         let Interval { start, end } = interval;
         let limit = self.length_to(start) + length;
@@ -315,6 +323,7 @@ impl<'a, C: PlaneCurve + ?Sized> Course<'a, C> {
     }
 
     /// The first part of an interval, to the end of its first span.
+    #[inline]
     pub(crate) fn to_first_knot(&self, interval: &Interval) -> Interval {
         let Interval { start, end } = *interval;
         if start.span == end.span {
@@ -325,6 +334,7 @@ impl<'a, C: PlaneCurve + ?Sized> Course<'a, C> {
     }
 
     /// The interval that is left from `start` on; from a knot on it starts in the next span.
+    #[inline]
     pub(crate) fn rest(&self, interval: &Interval, mut start: End) -> Interval {
         if start.t == 1.0 && start.span < interval.end.span {
             start.span += 1;
@@ -337,6 +347,7 @@ impl<'a, C: PlaneCurve + ?Sized> Course<'a, C> {
     }
 
     /// Length of an interval.
+    #[inline]
     pub(crate) fn length(&self, interval: &Interval) -> f64 {
         self.length_to(&interval.end) - self.length_to(&interval.start)
     }

@@ -2,7 +2,7 @@
 
 use crate::assembly::Assembly;
 use crate::course::{Course, End, Interval};
-use crate::fit::{Attempt, Fitter, NEAR};
+use crate::fit::{Attempt, Fit, Fitter, NEAR};
 use crate::plane_curve::merge;
 use crate::{Approximated, Approximation, Arcs, Break, BreakKind, Error, PlaneCurve, Side};
 
@@ -24,9 +24,8 @@ const UP_TO_INFLECTION: f64 = 0.1;
 const INTO_INFLECTION: f64 = 0.02;
 /// A rest shorter than this share of a piece takes a part of that piece.
 const SLIVER: f64 = 0.3;
-/// Pieces that end at the next knot at the latest after an attempt over knots has failed, the first time and at most.
-const FIRST_HOLD: u32 = 16;
-const MOST_HOLD: u32 = 32;
+/// For so many pieces no more knots are tried after an attempt over knots has failed.
+const HOLD: u32 = 32;
 /// An error below this share of the tolerance ends the wait.
 const MUCH_ROOM: f64 = 1e-3;
 /// Attempts for one piece.
@@ -45,8 +44,8 @@ pub(crate) struct Cover<'a, C: ?Sized> {
     reach: Option<f64>,
     /// How many knots the last piece runs over.
     knots: usize,
-    /// For how many pieces no more knots are run over than by the last, and for how many after the next vain attempt.
-    hold: [u32; 2],
+    /// For how many pieces no more knots are run over than by the last.
+    hold: u32,
 }
 
 impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
@@ -59,7 +58,7 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
             passed: 0,
             reach: None,
             knots: 0,
-            hold: [0, FIRST_HOLD],
+            hold: 0,
         }
     }
 
@@ -117,6 +116,9 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
         let curve = self.fitter.course.curve;
         cuts.clear();
         curve.inflections(span, cuts);
+        if self.fitter.how.arcs != Arcs::Class3 && cuts.is_empty() {
+            return;
+        }
         if self.fitter.how.arcs == Arcs::Class3 {
             curve.vertices(span, cuts);
         } else {
@@ -166,8 +168,7 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
     fn longest(&mut self, rest: &Interval) -> Result<End, Error> {
         let start = rest.start;
         let mut search = self.search(rest);
-        let mut over_knots = false;
-        let mut longest: Option<(Interval, Attempt)> = None;
+        let mut longest: Option<(Interval, Fit, f64)> = None;
         let mut excess = f64::INFINITY;
         for _ in 0..MOST_ATTEMPTS {
             let (end, inflection) = self.first_part(rest, &search)?;
@@ -177,64 +178,78 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
                 break;
             }
             let attempt = self.fitter.attempt(&part, inflection.as_ref());
-            excess = attempt
-                .as_ref()
-                .map_or(f64::INFINITY, |a| a.error / self.fitter.how.tolerance);
-            match attempt {
-                Some(attempt) if excess <= 1.0 => {
-                    let full = end.parameter() >= search.limit.parameter();
-                    let promise = if full {
-                        LENGTHENING.1
-                    } else {
-                        attempt.promise(excess)
-                    };
-                    search.covered = tried;
-                    search.length = tried * promise.clamp(1.0, LENGTHENING.1);
-                    longest = Some((part, attempt));
-                    if full || promise < LENGTHENING.0 || search.missed.is_finite() {
-                        break;
-                    }
+            excess = attempt.error / self.fitter.how.tolerance;
+            if let Some(fit) = attempt.fit.as_ref().filter(|_| excess <= 1.0) {
+                let full = end.parameter() >= search.limit.parameter();
+                let promise = if full {
+                    LENGTHENING.1
+                } else {
+                    attempt.promise(excess)
+                };
+                search.covered = tried;
+                search.length = tried * promise.clamp(1.0, LENGTHENING.1);
+                if full || promise < LENGTHENING.0 || search.missed.is_finite() {
+                    return self.take(&part, fit, attempt.error, &search);
                 }
-                attempt => {
-                    search.missed = tried;
-                    over_knots |= end.span > start.span;
-                    if longest.is_some() {
-                        break;
-                    }
-                    let factor = match attempt {
-                        Some(attempt) if !over_knots => attempt.promise(excess),
-                        _ => HALF,
-                    };
-                    search.length = tried * factor.clamp(SHORTENING.0, SHORTENING.1);
+                longest = Some((part, *fit, attempt.error));
+            } else {
+                search.in_vain |= end.span > start.span;
+                search.missed = tried;
+                if longest.is_some() {
+                    break;
                 }
+                let factor = if search.in_vain || excess.is_infinite() {
+                    HALF
+                } else {
+                    attempt.promise(excess)
+                };
+                search.length = tried * factor.clamp(SHORTENING.0, SHORTENING.1);
             }
         }
-        self.reach = Some(search.length);
-        if excess < MUCH_ROOM {
-            self.hold[0] = 0;
-        }
-        self.pace(over_knots);
+        let (part, fit, error) = longest.ok_or(Error::NotConverged {
+            start: start.parameter(),
+            end: rest.end.parameter(),
+            excess,
+            attempts: MOST_ATTEMPTS,
+        })?;
+        self.take(&part, &fit, error, &search)
+    }
+
+    /// Takes the longest part that was found, and remembers what the next one may learn from it; returns its end.
+    fn take(
+        &mut self,
+        part: &Interval,
+        fit: &Fit,
+        error: f64,
+        search: &Search,
+    ) -> Result<End, Error> {
+        let Interval { start, end } = part;
+        let excess = error / self.fitter.how.tolerance;
         let room = MOST_PIECES.saturating_mul(self.fitter.course.curve.spans());
-        match &longest {
-            Some((part, attempt)) if self.assembly.len() < room => {
-                self.knots = part.end.span - start.span;
-                self.assembly.accept(part, attempt)?;
-                Ok(part.end)
-            }
-            _ => Err(Error::NotConverged {
+        if self.assembly.len() >= room {
+            return Err(Error::NotConverged {
                 start: start.parameter(),
-                end: rest.end.parameter(),
+                end: end.parameter(),
                 excess,
                 attempts: MOST_ATTEMPTS,
-            }),
+            });
         }
+        self.reach = Some(search.length);
+        self.knots = end.span - start.span;
+        self.hold = match self.hold {
+            _ if search.in_vain => HOLD,
+            _ if excess < MUCH_ROOM => 0,
+            hold => hold.saturating_sub(1),
+        };
+        self.assembly.accept(part, fit, error)?;
+        Ok(*end)
     }
 
     /// What to try first for an interval.
     fn search(&self, rest: &Interval) -> Search {
         let course = &self.fitter.course;
         let steady = rest.start.span + self.knots;
-        let limit = if self.hold[0] > 0 && steady < rest.end.span {
+        let limit = if self.hold > 0 && steady < rest.end.span {
             course.ends(steady)[1]
         } else {
             rest.end
@@ -248,17 +263,8 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
             most: length_to(limit),
             covered: 0.0,
             missed: f64::INFINITY,
+            in_vain: false,
         }
-    }
-
-    /// Waits with attempts over more knots the longer, the more often they were in vain.
-    fn pace(&mut self, in_vain: bool) {
-        let [left, next] = self.hold;
-        self.hold = match (in_vain, left) {
-            (true, _) => [next, (4 * next).min(MOST_HOLD)],
-            (false, 0) => [0, FIRST_HOLD],
-            (false, _) => [left - 1, next],
-        };
     }
 
     /// The end of a first part of an interval, at about the length looked for. The part runs through one inflection at most, and
@@ -338,6 +344,8 @@ struct Search {
     /// The longest that was covered, and the shortest that was not.
     covered: f64,
     missed: f64,
+    /// Whether an attempt over knots failed.
+    in_vain: bool,
 }
 
 impl Attempt {

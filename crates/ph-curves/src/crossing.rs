@@ -38,6 +38,8 @@ pub(crate) struct Stretch<'a> {
     pub(crate) ends: [DVec2; 2],
     /// Unit directions of travel at the ends.
     pub(crate) tangents: [DVec2; 2],
+    /// The meeting point of the tangents.
+    pub(crate) apex: DVec2,
     pub(crate) low: DVec2,
     pub(crate) high: DVec2,
     /// Absolute turning of the spline up to the start of the stretch, and to its end.
@@ -57,15 +59,12 @@ impl<'a> Stretch<'a> {
         let tangents = [piece.normal(from), piece.normal(to)].map(|n| n.perp() * sense);
         let sine = tangents[0].perp_dot(tangents[1]);
         let chord = ends[1] - ends[0];
-        let mut corners = [ends[0], ends[1], ends[0]];
-        if sine != 0.0 {
-            corners[2] = ends[0] + tangents[0] * (chord.perp_dot(tangents[1]) / sine);
+        let mut apex = ends[0] + tangents[0] * (chord.perp_dot(tangents[1]) / sine);
+        if !apex.is_finite() {
+            apex = ends[0];
         }
-        if !corners[2].is_finite() {
-            corners[2] = ends[0];
-        }
-        let low = corners[0].min(corners[1]).min(corners[2]);
-        let high = corners[0].max(corners[1]).max(corners[2]);
+        let low = ends[0].min(ends[1]).min(apex);
+        let high = ends[0].max(ends[1]).max(apex);
         Self {
             piece,
             index,
@@ -73,6 +72,7 @@ impl<'a> Stretch<'a> {
             to,
             ends,
             tangents,
+            apex,
             low,
             high,
             turned: [0.0; 2],
@@ -94,7 +94,18 @@ impl<'a> Stretch<'a> {
     }
 
     fn overlaps(&self, other: &Self) -> bool {
-        self.low.cmple(other.high).all() && other.low.cmple(self.high).all()
+        let boxes = self.low.cmple(other.high).all() && other.low.cmple(self.high).all();
+        boxes && !self.chord_separates(other) && !other.chord_separates(self)
+    }
+
+    /// Whether a parallel to the chord lies between the triangles: stretches that run side by side are found apart by it.
+    fn chord_separates(&self, other: &Self) -> bool {
+        let chord = self.ends[1] - self.ends[0];
+        let height = |p: DVec2| chord.perp_dot(p - self.ends[0]);
+        let own = height(self.apex);
+        let [a, b, c] = [other.ends[0], other.ends[1], other.apex].map(height);
+        let rounding = COMMON_END * chord.length_squared();
+        a.min(b).min(c) > own.max(0.0) + rounding || a.max(b).max(c) < own.min(0.0) - rounding
     }
 
     /// Whether no tangent of one is parallel to a tangent of the other: they then cross at most once. Tangents turn by
@@ -143,6 +154,7 @@ impl ArcSpline {
         let (mut turned, mut signed, mut run, mut after_cusp) = (0.0, 0.0, 0, false);
         for (index, piece) in self.pieces.iter().enumerate() {
             let mut places = piece.cusps();
+            let cusped = !places.is_empty();
             let inflection = piece.inflection();
             places.extend(inflection);
             places.sort_by(f64::total_cmp);
@@ -153,16 +165,21 @@ impl ArcSpline {
                 if range[1] - range[0] <= f64::EPSILON {
                     continue;
                 }
-                let middle = 0.5 * (range[0] + range[1]);
-                let forwards = piece.velocity(middle).dot(piece.normal(middle).perp()) >= 0.0;
+                // The ends are quicker to evaluate, and as good where no radius vanishes.
+                let at = if range == [0.0, 1.0] && !cusped {
+                    0.0
+                } else {
+                    0.5 * (range[0] + range[1])
+                };
+                let forwards = piece.velocity(at).dot(piece.normal(at).perp()) >= 0.0;
                 if !keep(forwards) {
                     run += 1;
                     after_cusp = false;
                     continue;
                 }
                 let [a, b] = range.map(|t| piece.normal(t));
-                let turning = a.perp_dot(b).atan2(a.dot(b)).abs();
-                let parts = (turning / MOST_TURNING).ceil().max(1.0);
+                let turning = a.perp_dot(b).atan2(a.dot(b));
+                let parts = (turning.abs() / MOST_TURNING).ceil().max(1.0);
                 for part in 0..parts as usize {
                     let at = |k: usize| range[0] + (range[1] - range[0]) * k as f64 / parts;
                     let mut stretch = Stretch::new(
@@ -172,7 +189,11 @@ impl ArcSpline {
                         if forwards { 1.0 } else { -1.0 },
                     );
                     let [a, b] = stretch.tangents;
-                    let turn = a.perp_dot(b).atan2(a.dot(b));
+                    let turn = if parts == 1.0 {
+                        turning
+                    } else {
+                        a.perp_dot(b).atan2(a.dot(b))
+                    };
                     stretch.turned = [turned, turned + turn.abs()];
                     stretch.signed = [signed, signed + turn];
                     (turned, signed) = (stretch.turned[1], stretch.signed[1]);

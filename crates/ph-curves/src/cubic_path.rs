@@ -167,6 +167,7 @@ pub(crate) fn line_cubic(start: DVec2, end: DVec2) -> [DVec2; 4] {
     ]
 }
 
+#[inline]
 fn legs(cubic: &[DVec2; 4]) -> [DVec2; 3] {
     [
         cubic[1] - cubic[0],
@@ -176,11 +177,13 @@ fn legs(cubic: &[DVec2; 4]) -> [DVec2; 3] {
 }
 
 /// Bernstein coefficients of det(D, D') / 2, with the hodograph D = r'/3 of these legs.
+#[inline]
 fn bend([d0, d1, d2]: [DVec2; 3]) -> [f64; 3] {
     [d0.perp_dot(d1), 0.5 * d0.perp_dot(d2), d1.perp_dot(d2)]
 }
 
 /// Whether the bend of these legs is rounding.
+#[inline]
 fn is_straight(legs: &[DVec2; 3], [a, b, c]: &[f64; 3]) -> bool {
     let size = legs
         .map(DVec2::abs)
@@ -216,11 +219,13 @@ impl PlaneCurve for CubicPath {
         [point, 3.0 * first, 6.0 * second]
     }
 
+    #[inline]
     fn is_straight(&self, span: usize) -> bool {
         let legs = legs(&self.cubics[span]);
         is_straight(&legs, &bend(legs))
     }
 
+    #[inline]
     fn inflections(&self, span: usize, breaks: &mut Vec<Break>) {
         let legs = legs(&self.cubics[span]);
         let bend = bend(legs);

@@ -33,8 +33,8 @@ const UNCUT_PEAK: f64 = 2.0;
 pub(crate) enum Fit {
     /// Two arcs of class 3 with the curve's curvatures at both ends.
     Pair([TQuartic; 2]),
-    /// One arc of class 3 with the curve's tangents.
-    Single(TQuartic),
+    /// One arc of class 3 with the curve's tangents, and whether its end curvatures are those of the curve too.
+    Single { arc: TQuartic, matched: bool },
     /// One arc of class 9 with the curve's curvatures at both ends.
     Wide(PhArc<10>),
     /// The same of class 14.
@@ -45,13 +45,21 @@ pub(crate) enum Fit {
     Bridge,
 }
 
-/// An attempt: the fit, its measured error with the power of the length by which it falls, and whether its end curvatures are
-/// those of the curve.
+/// An attempt: its measured error with the power of the length by which it falls.
 pub(crate) struct Attempt {
-    pub(crate) fit: Fit,
+    /// None above the tolerance, where nobody asks for it.
+    pub(crate) fit: Option<Fit>,
     pub(crate) error: f64,
     pub(crate) order: f64,
-    pub(crate) matched: bool,
+}
+
+impl Attempt {
+    /// Where there is no arc.
+    pub(crate) const NONE: Self = Self {
+        fit: None,
+        error: f64::INFINITY,
+        order: 1.0,
+    };
 }
 
 /// Finds a fit for intervals of a curve.
@@ -61,9 +69,10 @@ pub(crate) struct Fitter<'a, C: ?Sized> {
 }
 
 impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
-    /// The best fit of one interval with its measured error; none if there is no arc. At most one inflection lies inside the
+    /// The best fit of one interval with its measured error, if there is an arc. At most one inflection lies inside the
     /// interval, or one is near to it: the given one.
-    pub(crate) fn attempt(&self, interval: &Interval, inflection: Option<&End>) -> Option<Attempt> {
+    #[inline]
+    pub(crate) fn attempt(&self, interval: &Interval, inflection: Option<&End>) -> Attempt {
         let Interval { start, end } = interval;
         let chord = (end.point - start.point).length();
         let flat = [start, end].into_iter().find(|end| end.curvature == 0.0);
@@ -73,20 +82,38 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
             range.contains(&inflection.parameter())
         };
         let within = inflection.filter(contains);
-        let attempt = match (self.how.arcs, within) {
-            (Arcs::Class3, _) => self.element_to_element(interval, chord),
-            (_, Some(inflection)) => self.about(interval, inflection),
-            (_, None) => self
-                .beside(interval, inflection)
-                .filter(|attempt| attempt.error <= self.how.tolerance)
-                .or_else(|| self.element_to_element(interval, chord)),
-        };
-        attempt
-            .or_else(|| self.single_or_none(interval, within, chord))
+        if let Some(attempt) = self.smooth(interval, inflection, within, chord) {
+            return attempt;
+        }
+        self.single_or_none(interval, within, chord)
             .or_else(|| {
                 // Shorter pieces may do better than a segment over knots.
                 (start.span == end.span).then(|| self.bridge(interval, chord))?
             })
+            .unwrap_or(Attempt::NONE)
+    }
+
+    /// A fit with the curvatures of the ends; the inflection given a second time if it lies within the interval.
+    #[inline]
+    fn smooth(
+        &self,
+        interval: &Interval,
+        inflection: Option<&End>,
+        within: Option<&End>,
+        chord: f64,
+    ) -> Option<Attempt> {
+        if self.how.arcs != Arcs::Class3 {
+            if let Some(inflection) = within {
+                return self.about(interval, inflection);
+            }
+            let beside = self
+                .beside(interval, inflection)
+                .filter(|attempt| attempt.error <= self.how.tolerance);
+            if beside.is_some() {
+                return beside;
+            }
+        }
+        self.element_to_element(interval, chord)
     }
 
     /// An arc of class 3 where it is the best that there is: for other classes only where an end has no curvature that could be matched.
@@ -203,10 +230,9 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
             probes[usize::from(beyond)].support(normal)
         })?;
         Some(Attempt {
-            fit: Fit::Pair(pair.arcs),
+            fit: Some(Fit::Pair(pair.arcs)),
             error,
             order: 5.0,
-            matched: true,
         })
     }
 
@@ -231,10 +257,9 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         };
         let matched = agrees(r0, start.curvature) && agrees(r1, end.curvature);
         Some(Attempt {
-            fit: Fit::Single(arc),
+            fit: Some(Fit::Single { arc, matched }),
             error,
             order: 4.0,
-            matched,
         })
     }
 
@@ -256,10 +281,9 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         // samples miss on a piece that may loop.
         let error = 2.0 * error;
         (error <= self.how.tolerance).then_some(Attempt {
-            fit: Fit::Bridge,
+            fit: Some(Fit::Bridge),
             error,
             order: 2.0,
-            matched: false,
         })
     }
 

@@ -85,10 +85,9 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
             Some((if backwards { 1.0 - t } else { t }, difference))
         })?;
         Some(Attempt {
-            fit: Fit::Inflected(if backwards { arc.reverse() } else { arc }),
+            fit: Some(Fit::Inflected(if backwards { arc.reverse() } else { arc })),
             error: PEAK * error / frame.least_length(),
             order: 10.0,
-            matched: true,
         })
     }
 }

@@ -111,6 +111,7 @@ mod ph_arc;
 mod ph_spline;
 mod piece;
 mod plane_curve;
+mod polynomial;
 mod polynomial_ph;
 mod pottmann;
 mod quadrature;

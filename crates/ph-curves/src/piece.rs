@@ -75,6 +75,10 @@ impl<const N: usize> PlacedArc<N> {
         self.local.normal(t).perp() * (self.radius(t) * self.local.turning_rate(t))
     }
 
+    fn cusps(&self) -> Vec<f64> {
+        self.local.cusps_of_offset(self.distance)
+    }
+
     #[inline]
     fn offset(&self, distance: f64) -> Self {
         Self {
@@ -286,8 +290,8 @@ impl Piece {
         match self {
             Self::Segment(_) => Vec::new(),
             Self::Arc(arc) => arc.moved().cusp().into_iter().collect(),
-            Self::Wide(arc) => arc.moved().cusps(),
-            Self::Wider(arc) => arc.moved().cusps(),
+            Self::Wide(arc) => arc.cusps(),
+            Self::Wider(arc) => arc.cusps(),
             Self::Inflected(arc) => arc.cusps(),
         }
     }

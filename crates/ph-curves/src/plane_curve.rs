@@ -158,6 +158,7 @@ pub(crate) fn merge(breaks: &mut Vec<Break>) {
 }
 
 /// Whether the coefficients are of one sign, zeros aside: then there is no root inside (0, 1).
+#[inline]
 pub(crate) fn one_signed(coefficients: &[f64]) -> bool {
     let positive = coefficients.iter().any(|c| *c > 0.0);
     let negative = coefficients.iter().any(|c| *c < 0.0);

@@ -5,6 +5,7 @@ use glam::DVec2;
 use crate::complex::{conj, sqrt};
 use crate::course::{End, Interval};
 use crate::fit::{Attempt, Fit, Fitter};
+use crate::polynomial::{Newton, bernstein_5, binomials, is_positive, quintic};
 use crate::{Arcs, PhArc, PlaneCurve, SupportJet};
 
 /// Zeros of the ultraspherical polynomial of degree 4 for the weight `t^3 (1-t)^3`: the interpolation nodes of class 9.
@@ -26,8 +27,6 @@ pub(crate) const PEAK: f64 = 2.0;
 const LATE_PEAK: f64 = 1.3;
 /// An error of class 9 above this many tolerances is too large for class 14 too.
 const HOPELESS: f64 = 30.0;
-/// How often an arc is halved at most to show that it has no cusp.
-const HALVINGS: usize = 3;
 /// Slack of rounding of a parameter outside of `[0, 1]`.
 const SLACK: f64 = 1e-9;
 
@@ -50,6 +49,7 @@ pub(crate) struct Sample {
 }
 
 impl Frame {
+    #[inline]
     pub(crate) fn new(start: &End, end: &End) -> Self {
         let turn = conj(start.normal).rotate(end.normal);
         let cosine = (0.5 * (1.0 + turn.x)).sqrt();
@@ -99,6 +99,7 @@ impl Frame {
     }
 
     /// The numerator of the support with this jet, and its first two derivatives, at the parameter `t`.
+    #[inline]
     pub(crate) fn numerator(&self, jet: &SupportJet, t: f64) -> [f64; 3] {
         let [w0, w1] = self.spinors;
         let dw = w1 - w0;
@@ -119,6 +120,7 @@ impl Frame {
     }
 
     /// The six conditions at the ends are met by a polynomial of degree 5.
+    #[inline]
     fn ends(&self, start: &End, end: &End) -> [f64; 6] {
         let jet = |e: &End, sense: f64| {
             let jet = SupportJet::of_element(e.point - self.origin, e.normal, e.curvature.recip());
@@ -193,26 +195,28 @@ impl Frame {
 impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
     /// One arc of class 9 or 14: six support coefficients from the elements at the ends, the others from tangents in between,
     /// which first tell whether a lower class would do.
+    #[inline]
     pub(crate) fn wide(&self, interval: &Interval) -> Option<Attempt> {
         let Interval { start, end } = interval;
         let frame = Frame::new(start, end);
         let quintic = frame.ends(start, end);
         let allowed = self.how.tolerance * frame.least_length();
         let over_knots = start.span < end.span;
-        let attempt = |fit: Option<Fit>, error: f64, order: f64| {
-            Some(Attempt {
-                fit: fit?,
-                error: error / frame.least_length(),
-                order,
-                matched: true,
-            })
+        let attempt = |fit: Option<Fit>, error: f64, order: f64| Attempt {
+            fit,
+            error: error / frame.least_length(),
+            order,
+        };
+        let wide = |factor: [f64; 4], error: f64, order: f64| {
+            let arc = frame.arc(&quintic, &factor, end)?;
+            Some(attempt(Some(Fit::Wide(arc)), error, order))
         };
 
         let nodes = frame.remainder(&quintic, self.course.tangents(interval, NODES))?;
         let uneven = is_uneven(nodes.t);
         let error = PEAK * nodes.largest_beyond(|_| 0.0);
         if error <= allowed && !uneven && !over_knots {
-            return attempt(frame.arc(quintic, [0.0; 4], end).map(Fit::Wide), error, 6.0);
+            return wide([0.0; 4], error, 6.0);
         }
         // The remainder over t^3 (1-t)^3, first as a line through the inner nodes, which is class 7 ...
         let quotient = nodes.quotient();
@@ -222,8 +226,7 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         if error <= allowed && !uneven && !over_knots {
             // Raised by two degrees.
             let (a, b) = (line(0.0), line(1.0));
-            let inner = [a, 2.0 * a + b, a + 2.0 * b, b];
-            return attempt(frame.arc(quintic, inner, end).map(Fit::Wide), error, 8.0);
+            return wide([a, 2.0 * a + b, a + 2.0 * b, b], error, 8.0);
         }
         // ... then as a cubic through all four ...
         let cubic = Newton::through(nodes.t, quotient);
@@ -233,10 +236,11 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
             let shares: &[f64] = if over_knots { &CLOSE } else { &PEAKS };
             error = PEAK * self.largest_beyond(interval, &frame, &quintic, &cubic, shares)?;
         }
-        let hopeful = allowed..HOPELESS * allowed;
-        if self.how.arcs != Arcs::Class14 || !hopeful.contains(&error) {
-            let arc = frame.arc(quintic, cubic.homogeneous(), end);
-            return attempt(arc.map(Fit::Wide), error, 10.0);
+        if error <= allowed {
+            return wide(cubic.homogeneous(), error, 10.0);
+        }
+        if self.how.arcs != Arcs::Class14 || error > HOPELESS * allowed {
+            return Some(attempt(None, error, 10.0));
         }
         // ... and then through all nine.
         let [a, b, c, d] = [0, 1, 2, 3].map(|k| (nodes.t[k], quotient[k]));
@@ -250,8 +254,12 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
             let late = frame.remainder(&quintic, self.course.tangents(interval, LATE_PEAKS))?;
             late.largest_beyond(|t| octic.value(t))
         };
-        let arc = frame.arc(quintic, octic.homogeneous(), end);
-        attempt(arc.map(Fit::Wider), LATE_PEAK * error, 15.0)
+        let error = LATE_PEAK * error;
+        if error > allowed {
+            return Some(attempt(None, error, 15.0));
+        }
+        let arc = frame.arc(&quintic, &octic.homogeneous(), end)?;
+        Some(attempt(Some(Fit::Wider(arc)), error, 15.0))
     }
 
     /// The largest error of an arc at shares of an interval, and in between where the normals turn much.
@@ -274,17 +282,18 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
 impl Frame {
     /// The arc whose support has this quintic and `t^3 (1-t)^3` times a polynomial, given by its coefficients of
     /// `s^(K-1-k) t^k`; none if it may have a cusp.
+    #[inline]
     fn arc<const K: usize, const N: usize>(
         &self,
-        quintic: [f64; 6],
-        factor: [f64; K],
+        quintic: &[f64; 6],
+        factor: &[f64; K],
         end: &End,
     ) -> Option<PhArc<N>> {
         // The quintic raised: a product with a power of s + t.
-        let (row, power) = (binomials::<N>(N - 1), binomials::<N>(N - 6));
+        let (row, power) = const { (binomials::<N>(N - 1), binomials::<N>(N - 6)) };
         let mut g = [0.0; N];
         for (i, (c, binomial)) in quintic
-            .into_iter()
+            .iter()
             .zip([1.0, 5.0, 10.0, 10.0, 5.0, 1.0])
             .enumerate()
         {
@@ -300,98 +309,8 @@ impl Frame {
         }
         let arc = PhArc::from_parts(self.spinors[0], self.spinors[1], g);
         let radius = arc.radius_polynomial().map(|r| r * end.curvature);
-        is_positive(radius, HALVINGS).then_some(arc)
+        is_positive(&radius).then_some(arc)
     }
-}
-
-/// Whether a polynomial is positive on `[0, 1]` by the signs of its Bernstein coefficients, there or on repeatedly halved parts.
-fn is_positive<const N: usize>(coefficients: [f64; N], halvings: usize) -> bool {
-    if coefficients.iter().all(|c| *c > 0.0) {
-        return true;
-    }
-    if halvings == 0 || !(coefficients[0] > 0.0 && coefficients[N - 1] > 0.0) {
-        return false;
-    }
-    let (mut left, mut right) = (coefficients, coefficients);
-    for (level, first) in left.iter_mut().enumerate() {
-        *first = right[0];
-        for k in 1..N - level {
-            right[k - 1] = 0.5 * (right[k - 1] + right[k]);
-        }
-    }
-    is_positive(left, halvings - 1) && is_positive(right, halvings - 1)
-}
-
-/// A polynomial through values at nodes: Newton's divided differences.
-struct Newton<const K: usize> {
-    nodes: [f64; K],
-    coefficients: [f64; K],
-}
-
-impl<const K: usize> Newton<K> {
-    fn through(nodes: [f64; K], mut coefficients: [f64; K]) -> Self {
-        for level in 1..K {
-            for k in (level..K).rev() {
-                coefficients[k] =
-                    (coefficients[k] - coefficients[k - 1]) / (nodes[k] - nodes[k - level]);
-            }
-        }
-        Self {
-            nodes,
-            coefficients,
-        }
-    }
-
-    #[inline]
-    fn value(&self, t: f64) -> f64 {
-        let mut value = 0.0;
-        for k in (0..K).rev() {
-            value = value * (t - self.nodes[k]) + self.coefficients[k];
-        }
-        value
-    }
-
-    /// Its coefficients of `s^(K-1-k) t^k`, `s = 1 - t`: Horner's scheme with factors `t - node = (1 - node) t - node s`.
-    fn homogeneous(&self) -> [f64; K] {
-        let mut c = [0.0; K];
-        c[0] = self.coefficients[K - 1];
-        for degree in 1..K {
-            let (node, constant) = (
-                self.nodes[K - 1 - degree],
-                self.coefficients[K - 1 - degree],
-            );
-            let row = binomials::<K>(degree);
-            let mut below = 0.0;
-            for k in 0..=degree {
-                let here = c[k];
-                c[k] = (1.0 - node) * below - node * here + constant * row[k];
-                below = here;
-            }
-        }
-        c
-    }
-}
-
-/// Bernstein coefficients of the quintic with these values and first two derivatives at both ends, counted from each end.
-fn quintic(first: [f64; 3], last: [f64; 3]) -> [f64; 6] {
-    let ends = |[value, slope, bend]: [f64; 3]| {
-        let next = value + slope / 5.0;
-        [value, next, bend / 20.0 + 2.0 * next - value]
-    };
-    let ([a, b, c], [f, e, d]) = (ends(first), ends(last));
-    [a, b, c, d, e, f]
-}
-
-/// The binomial coefficients of a degree below `N`.
-const fn binomials<const N: usize>(degree: usize) -> [f64; N] {
-    let mut row = [0.0; N];
-    row[0] = 1.0;
-    let mut k = 1;
-    while k <= degree {
-        row[k] = row[k - 1] * (degree + 1 - k) as f64 / k as f64;
-        k += 1;
-    }
-    row
 }
 
 /// Parameters farther apart than this leave room for an error that samples do not show: those of a curve of slowly varying
@@ -422,13 +341,4 @@ pub(crate) fn largest_between(
         last = (share, t);
     }
     Some(most)
-}
-
-/// Value of a Bernstein polynomial of degree 5 at `t = 1 - s`.
-#[inline]
-fn bernstein_5(g: &[f64; 6], s: f64, t: f64) -> f64 {
-    let (s2, t2) = (s * s, t * t);
-    let low = s2 * g[0] + 5.0 * s * t * g[1] + 10.0 * t2 * g[2];
-    let high = 10.0 * s2 * g[3] + 5.0 * s * t * g[4] + t2 * g[5];
-    s2 * s * low + t2 * t * high
 }

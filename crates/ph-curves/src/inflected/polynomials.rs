@@ -4,6 +4,7 @@ use bezier_mass::bernstein;
 use glam::{DVec2, DVec3};
 
 use super::InflectedArc;
+use crate::polynomial::{is_positive, product, roots};
 
 /// Degree of the point form: `g` has degree 9, and the numerator `w (ġ w - 2 g ẇ)` two more.
 const POINT_DEGREE: usize = 11;
@@ -61,13 +62,17 @@ impl InflectedArc {
     /// Whether no cusp lies on the piece and its radius of curvature has the sign of `sign` times `t`, certified by the signs of
     /// Bernstein coefficients.
     pub(crate) fn is_regular(&self, sign: f64) -> bool {
-        self.scaled_radius().iter().all(|c| c * sign > 0.0)
+        is_positive(&self.scaled_radius().map(|c| c * sign))
     }
 
     /// Parameters in `[0, 1]` where the radius of curvature vanishes, in increasing order, isolated and certified.
     #[must_use]
     pub fn cusps(&self) -> Vec<f64> {
-        roots(&self.scaled_radius())
+        let radius = self.scaled_radius();
+        if is_positive(&radius) || is_positive(&radius.map(|r| -r)) {
+            return Vec::new();
+        }
+        roots(&radius)
     }
 
     /// Parameters in `[0, 1]` of the points whose normal passes through `point`, and perhaps of the inflection.
@@ -148,42 +153,4 @@ impl InflectedArc {
             })
             .collect()
     }
-}
-
-/// Product of Bernstein polynomials with `A` and `B` coefficients; `C = A + B - 1`.
-fn product<const A: usize, const B: usize, const C: usize>(a: &[f64; A], b: &[f64; B]) -> [f64; C] {
-    let mut sum = [0.0; C];
-    for (i, a) in a.iter().enumerate() {
-        let a = a * const { binomials::<A>() }[i];
-        for (j, b) in b.iter().enumerate() {
-            sum[i + j] += a * b * const { binomials::<B>() }[j];
-        }
-    }
-    for (sum, binomial) in sum.iter_mut().zip(const { binomials::<C>() }) {
-        *sum /= binomial;
-    }
-    sum
-}
-
-/// The row of Pascal's triangle with `N` numbers.
-const fn binomials<const N: usize>() -> [f64; N] {
-    let mut row = [1.0; N];
-    let mut k = 1;
-    while k < N {
-        row[k] = row[k - 1] * (N - k) as f64 / k as f64;
-        k += 1;
-    }
-    row
-}
-
-/// Certified roots of Bernstein coefficients in `[0, 1]`, in increasing order.
-fn roots(coefficients: &[f64]) -> Vec<f64> {
-    let Ok(roots) = variation::Solver::new()
-        .without_exact()
-        .roots(coefficients)
-        .map(|roots| roots.iter().map(|root| root.value()).collect::<Vec<_>>())
-    else {
-        return Vec::new();
-    };
-    roots
 }

@@ -6,6 +6,7 @@ use glam::DVec2;
 use super::PhArc;
 use crate::Error;
 use crate::arc_length::power_coefficients;
+use crate::polynomial::{is_positive, roots};
 use crate::quadrature::integrate;
 
 /// Largest `|w1 - w0|^2 / min(|w0|, |w1|)^2` for which the arc length is integrated by Gauss's rule.
@@ -77,18 +78,20 @@ impl<const N: usize> PhArc<N> {
     /// as roots of the radius polynomial; none for a point, where it vanishes everywhere.
     #[must_use]
     pub fn cusps(&self) -> Vec<f64> {
-        let radius = self.radius_polynomial();
-        let noise = self.radius_noise();
-        if radius.iter().all(|r| *r > 0.0)
-            || radius.iter().all(|r| *r < 0.0)
-            || radius.iter().all(|r| r.abs() <= noise)
-        {
+        self.cusps_of_offset(0.0)
+    }
+
+    /// The same for the parallel arc at a distance.
+    pub(crate) fn cusps_of_offset(&self, distance: f64) -> Vec<f64> {
+        let radius = self.radius_polynomial().map(|r| r + distance);
+        if is_positive(&radius) || is_positive(&radius.map(|r| -r)) {
             return Vec::new();
         }
-        variation::roots(&radius).map_or_else(
-            |_| Vec::new(),
-            |roots| roots.iter().map(|root| root.value()).collect(),
-        )
+        let noise = self.radius_noise() + f64::EPSILON * distance.abs();
+        if radius.iter().all(|r| r.abs() <= noise) {
+            return Vec::new();
+        }
+        roots(&radius)
     }
 
     /// Parameters in `[0, 1]` of the points whose normal passes through `point`: the critical points of the distance,
@@ -97,16 +100,22 @@ impl<const N: usize> PhArc<N> {
     pub fn feet(&self, point: DVec2) -> Vec<f64> {
         let normals = self.control_normals();
         // The tangent at t is h/q away, h = <n, X> - g; critical where h' q - h q' = 0, of degree N.
-        let h: Vec<f64> = (0..N).map(|k| normals[k].dot(point) - self.g[k]).collect();
-        let q = self.normal_length();
-        let first = bernstein::product(&q, &bernstein::derivative(&h));
-        let second = bernstein::product(&bernstein::derivative(&q), &h);
-        let rate: Vec<f64> = first.iter().zip(&second).map(|(a, b)| a - b).collect();
-        let mut solver = variation::Solver::new().without_exact();
-        solver.roots(&rate).map_or_else(
-            |_| Vec::new(),
-            |roots| roots.iter().map(|root| root.value()).collect(),
-        )
+        let h: [f64; N] = std::array::from_fn(|k| normals[k].dot(point) - self.g[k]);
+        let [q0, q1, q2] = self.normal_length();
+        let (dq0, dq1) = (2.0 * (q1 - q0), 2.0 * (q2 - q1));
+        // Bernstein products, times N. What lies beyond an end has the factor 0.
+        let value = |k: usize| h.get(k).copied().unwrap_or(0.0);
+        let rate: Vec<f64> = (0..=N)
+            .map(|k| {
+                let (left, right) = (k as f64, (N - k) as f64);
+                let [a, b, c, d] = [3, 2, 1, 0].map(|back| value((k + 1).wrapping_sub(back)));
+                let slope = right * (right - 1.0) * q0 * (d - c)
+                    + 2.0 * left * right * q1 * (c - b)
+                    + left * (left - 1.0) * q2 * (b - a);
+                slope - right * dq0 * c - left * dq1 * b
+            })
+            .collect();
+        roots(&rate)
     }
 
     /// Rounding error of a coefficient of the radius polynomial: some ulps of its largest term.

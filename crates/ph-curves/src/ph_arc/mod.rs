@@ -154,17 +154,26 @@ impl<const N: usize> PhArc<N> {
         self.w0 * (1.0 - t) + self.w1 * t
     }
 
-    /// `g`, `g'` and `g''` at `t`.
+    /// `g`, `g'` and `g''` at `t`, from the last three values of de Casteljau's scheme.
     fn support_jet(&self, t: f64) -> [f64; 3] {
-        let mut row = self.g;
-        for level in 1..N.saturating_sub(2) {
-            for k in 0..N - level {
-                row[k] += t * (row[k + 1] - row[k]);
+        let last = N.saturating_sub(3);
+        // The ends are asked for most often.
+        let [a, b, c] = if t == 0.0 {
+            [self.g[0], self.g[1], self.g[2]]
+        } else if t == 1.0 {
+            [self.g[last], self.g[last + 1], self.g[last + 2]]
+        } else {
+            let mut row = self.g;
+            for level in 0..last {
+                for k in 0..N - 1 - level {
+                    row[k] += t * (row[k + 1] - row[k]);
+                }
             }
-        }
+            [row[0], row[1], row[2]]
+        };
         let m = Self::CLASS as f64;
-        let (d0, d1) = (row[1] - row[0], row[2] - row[1]);
-        let (a, b) = (row[0] + t * d0, row[1] + t * d1);
+        let (d0, d1) = (b - a, c - b);
+        let (a, b) = (a + t * d0, b + t * d1);
         [a + t * (b - a), m * (b - a), m * (m - 1.0) * (d1 - d0)]
     }
 
@@ -235,34 +244,51 @@ impl<const N: usize> PhArc<N> {
     pub fn radius_polynomial(&self) -> [f64; N] {
         let [q0, q1, q2] = self.normal_length();
         let (dq0, dq1, ddq) = (q1 - q0, q2 - q1, q0 - 2.0 * q1 + q2);
-        let m = Self::CLASS;
         let g = &self.g;
-        // Differences, and the same moved on by one and by two places: without branches this is quick.
-        let (mut step, mut step_before) = ([0.0; N], [0.0; N]);
+        let m = Self::CLASS;
+        let (mut step, mut bend) = ([0.0; N], [0.0; N]);
         for k in 0..m {
             step[k] = g[k + 1] - g[k];
-            step_before[k + 1] = step[k];
         }
-        let (mut bend, mut bend_before, mut bend_long_before) = ([0.0; N], [0.0; N], [0.0; N]);
-        for k in 0..m - 1 {
-            bend[k] = step[k + 1] - step[k];
-            bend_before[k + 1] = bend[k];
-            bend_long_before[k + 2] = bend[k];
+        for k in 1..m {
+            bend[k] = step[k] - step[k - 1];
         }
         // Bernstein products of q with g'', q' with g' and q'' with g; the binomial ratios of the
         // products cancel the factors m and m - 1 of the derivatives.
         let scale = 1.0 / (4.0 * self.kappa() * self.kappa());
-        let mut radius = [0.0; N];
-        for k in 0..N {
-            let left = f64::from(k as u32);
-            let right = m as f64 - left;
-            let slope = right * dq0 * step[k] + left * dq1 * step_before[k];
-            let bending = right * (right - 1.0) * q0 * bend[k]
-                + 2.0 * left * right * q1 * bend_before[k]
-                + left * (left - 1.0) * q2 * bend_long_before[k];
-            radius[k] = scale * (2.0 * (ddq * g[k] - slope) + bending);
+        let [dq0, dq1, ddq] = [dq0, dq1, ddq].map(|c| 2.0 * scale * c);
+        let [q0, q1, q2] = [q0, q1, q2].map(|c| scale * c);
+        let [right, ahead, within, behind, left] = const { Self::radius_factors() };
+        let mut radius: [f64; N] = std::array::from_fn(|k| ddq * g[k] + within[k] * q1 * bend[k]);
+        for k in 0..m {
+            radius[k] -= right[k] * dq0 * step[k];
+        }
+        for k in 0..m {
+            radius[k + 1] -= left[k + 1] * dq1 * step[k];
+        }
+        for k in 1..m {
+            radius[k - 1] += ahead[k - 1] * q0 * bend[k];
+        }
+        for k in 1..m {
+            radius[k + 1] += behind[k + 1] * q2 * bend[k];
         }
         radius
+    }
+
+    /// For every coefficient `k` the numbers `r`, `r (r - 1)`, `2 r k`, `k (k - 1)` and `k`, with `r = N - 1 - k`.
+    const fn radius_factors() -> [[f64; N]; 5] {
+        let mut factors = [[0.0; N]; 5];
+        let mut k = 0;
+        while k < N {
+            let (left, right) = (k as f64, (N - 1 - k) as f64);
+            factors[0][k] = right;
+            factors[1][k] = right * (right - 1.0);
+            factors[2][k] = 2.0 * left * right;
+            factors[3][k] = left * (left - 1.0);
+            factors[4][k] = left;
+            k += 1;
+        }
+        factors
     }
 
     /// Signed radii at the two ends.

@@ -1,0 +1,106 @@
+//! Crossings of splines with themselves, against those of dense polylines.
+
+use ph_curves::glam::{DVec2, dvec2};
+use ph_curves::{Approximation, ArcSpline, CubicPath, approximate};
+
+/// Chords per piece.
+const CHORDS: usize = 48;
+/// Chords that meet at a smaller sine can belong to a contact, or to a crossing in a piece's own cusp.
+const LEAST_SINE: f64 = 0.1;
+
+/// A chord with the piece and the parameter at which it begins.
+struct Chord {
+    piece: usize,
+    from: f64,
+    ends: [DVec2; 2],
+}
+
+fn chords(spline: &ArcSpline) -> Vec<Chord> {
+    let step = 1.0 / CHORDS as f64;
+    let chord = |piece: usize, k: usize| {
+        let [from, to] = [k, k + 1].map(|k| k as f64 * step);
+        let arc = &spline.pieces()[piece];
+        Chord {
+            piece,
+            from,
+            ends: [arc.point(from), arc.point(to)],
+        }
+    };
+    (0..spline.pieces().len())
+        .flat_map(|piece| (0..CHORDS).map(move |k| chord(piece, k)))
+        .collect()
+}
+
+/// Where two chords cross clearly, inside of both and at a good angle.
+fn meeting(a: &Chord, b: &Chord) -> Option<DVec2> {
+    let (u, v) = (a.ends[1] - a.ends[0], b.ends[1] - b.ends[0]);
+    let between = b.ends[0] - a.ends[0];
+    let determinant = u.perp_dot(v);
+    let (t, s) = (
+        between.perp_dot(v) / determinant,
+        between.perp_dot(u) / determinant,
+    );
+    let inside = |x: f64| (0.05..0.95).contains(&x);
+    let clear = determinant.abs() > LEAST_SINE * u.length() * v.length();
+    (clear && inside(t) && inside(s)).then(|| a.ends[0] + u * t)
+}
+
+/// A B-spline of random control points: a walk that crosses itself often.
+fn walk(seed: u64, closed: bool) -> CubicPath {
+    let mut state = seed;
+    let mut unit = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let control: Vec<DVec2> = (0..14)
+        .map(|_| dvec2(10.0 * unit(), 10.0 * unit()))
+        .collect();
+    CubicPath::uniform_bspline(&control, closed).unwrap()
+}
+
+#[test]
+fn every_clear_crossing_of_chords_is_a_crossing_of_arcs() {
+    let (mut seen, mut found) = (0, 0);
+    for seed in 0..40 {
+        let how = match seed % 3 {
+            0 => Approximation::within(1e-5),
+            1 => Approximation::fewest(1e-5),
+            _ => Approximation::quartics(1e-3),
+        };
+        let spline = approximate(&walk(seed, seed % 2 == 0), &how)
+            .unwrap()
+            .spline;
+        let spline = spline.offset([0.0, 0.4, -0.7][seed as usize % 3]).unwrap();
+        let crossings = spline.crossings();
+        for crossing in &crossings {
+            let [(i, t), (j, s)] = [crossing.first, crossing.second];
+            let (a, b) = (spline.pieces()[i].point(t), spline.pieces()[j].point(s));
+            assert!((a - b).length() < 1e-12, "seed {seed}: {crossing:?}");
+            assert!((a - crossing.point).length() < 1e-12);
+        }
+        found += crossings.len();
+        let chords = chords(&spline);
+        for (k, a) in chords.iter().enumerate() {
+            for b in chords.iter().skip(k + 2) {
+                let Some(point) = meeting(a, b) else {
+                    continue;
+                };
+                seen += 1;
+                let longest = (a.ends[1] - a.ends[0])
+                    .length()
+                    .max((b.ends[1] - b.ends[0]).length());
+                let known = crossings
+                    .iter()
+                    .any(|c| (c.point - point).length() <= longest);
+                assert!(
+                    known,
+                    "seed {seed}: pieces {} {:.3} and {} {:.3}",
+                    a.piece, a.from, b.piece, b.from
+                );
+            }
+        }
+    }
+    assert!(seen > 300 && found >= seen, "{seen} seen, {found} found");
+}
