@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::{ArcSpline, Piece};
+use crate::{ArcSpline, Joint, Piece};
 
 /// Largest turning of one stretch: two neighbours then turn by less than pi together, and cannot meet again.
 const MOST_TURNING: f64 = 1.2;
@@ -152,7 +152,12 @@ impl ArcSpline {
     pub(crate) fn stretches(&self, keep: impl Fn(bool) -> bool) -> Vec<Stretch<'_>> {
         let mut stretches: Vec<Stretch<'_>> = Vec::with_capacity(2 * self.pieces.len());
         let (mut turned, mut signed, mut run, mut after_cusp) = (0.0, 0.0, 0, false);
+        // The sense of the stretch before, if it goes on in the next one.
+        let mut sense_before: Option<bool> = None;
         for (index, piece) in self.pieces.iter().enumerate() {
+            if index > 0 && self.joints[index - 1] == Joint::Corner {
+                (run, after_cusp, sense_before) = (run + 1, false, None);
+            }
             let mut places = piece.cusps();
             let cusped = !places.is_empty();
             let inflection = piece.inflection();
@@ -173,10 +178,14 @@ impl ArcSpline {
                 };
                 let forwards = piece.velocity(at).dot(piece.normal(at).perp()) >= 0.0;
                 if !keep(forwards) {
-                    run += 1;
-                    after_cusp = false;
+                    (run, after_cusp, sense_before) = (run + 1, false, None);
                     continue;
                 }
+                // At a cusp the direction of travel reverses: inside of a piece, or in a joint where the radius changes its sign.
+                if sense_before == Some(!forwards) {
+                    (run, after_cusp) = (run + 1, true);
+                }
+                sense_before = Some(forwards);
                 let [a, b] = range.map(|t| piece.normal(t));
                 let turning = a.perp_dot(b).atan2(a.dot(b));
                 let parts = (turning.abs() / MOST_TURNING).ceil().max(1.0);
@@ -200,11 +209,6 @@ impl ArcSpline {
                     stretch.run = run;
                     stretch.after_cusp = after_cusp;
                     stretches.push(stretch);
-                }
-                // At a cusp the direction of travel reverses.
-                if place < 1.0 && Some(place) != inflection {
-                    run += 1;
-                    after_cusp = true;
                 }
             }
         }
@@ -281,7 +285,7 @@ pub(crate) fn crossings(stretches: &[Stretch<'_>], own: usize, closed: bool) -> 
 
 /// Whether the way from one stretch to the other is so short that they cannot cross: their common travel turns by less
 /// than pi, so that all tangents point into one half plane; or it has a single cusp and no inflection, and the two
-/// branches lie on different sides of the normal of the cusp.
+/// branches lie on different sides of the tangent of the cusp.
 fn cannot_meet(first: &Stretch<'_>, second: &Stretch<'_>, around: Option<(f64, usize)>) -> bool {
     let half_turn = std::f64::consts::PI;
     let between = second.turned[1] - first.turned[0];

@@ -63,7 +63,7 @@ fn walk(seed: u64, closed: bool) -> CubicPath {
 #[test]
 fn every_clear_crossing_of_chords_is_a_crossing_of_arcs() {
     let (mut seen, mut found) = (0, 0);
-    for seed in 0..40 {
+    for seed in 0..48 {
         let how = match seed % 3 {
             0 => Approximation::within(1e-5),
             1 => Approximation::fewest(1e-5),
@@ -103,4 +103,38 @@ fn every_clear_crossing_of_chords_is_a_crossing_of_arcs() {
         }
     }
     assert!(seen > 300 && found >= seen, "{seen} seen, {found} found");
+}
+
+#[test]
+fn the_sides_of_a_corner_cross_in_its_inner_offset() {
+    let corner = [dvec2(0.0, 0.0), dvec2(4.0, 0.0), dvec2(4.0, 4.0)];
+    let path = CubicPath::polyline(&corner, false).unwrap();
+    let spline = approximate(&path, &Approximation::within(1e-6))
+        .unwrap()
+        .spline;
+    let only_crossing = |spline: &ArcSpline| {
+        let crossings = spline.crossings();
+        assert_eq!(crossings.len(), 1, "{crossings:?}");
+        crossings[0].point
+    };
+    // The travel reverses on the fan of normals between the sides ...
+    let inner = spline.offset(-1.0).unwrap();
+    assert!((only_crossing(&inner) - dvec2(3.0, 1.0)).length() < 1e-14);
+    // ... which a trimmed offset does not have: its sides move apart from their corner, or over it.
+    let trimmed = spline.trimmed_offset(-1.0).unwrap();
+    assert_eq!(trimmed.len(), 1);
+    assert!(trimmed[0].crossings().is_empty());
+    let further = trimmed[0].offset(-1.0).unwrap();
+    assert!((only_crossing(&further) - dvec2(2.0, 2.0)).length() < 1e-14);
+}
+
+#[test]
+fn a_cusp_in_a_joint_is_passed_in_the_other_direction() {
+    // Seed 95 of the walks: a joint without continuous curvature, at which the radius of the offset changes its sign.
+    let spline = approximate(&walk(95, false), &Approximation::quartics(1e-3))
+        .unwrap()
+        .spline;
+    let crossings = spline.offset(-0.7).unwrap().crossings();
+    let there = dvec2(1.4825, 6.54453);
+    assert!(crossings.iter().any(|c| (c.point - there).length() < 1e-5));
 }
