@@ -63,34 +63,20 @@ impl Frame {
         }
     }
 
-    /// Barycentric parameter `(1 - t, t)` of a normal of length `length`; none (but for a slack of rounding) outside of the arc.
-    #[inline]
-    fn barycentric(&self, normal: DVec2, length: f64) -> Option<(f64, f64)> {
-        let [w0, w1] = self.spinors;
-        // The spinor of a normal bisects it and the start.
-        let turn = DVec2::new(length + self.start.dot(normal), self.start.perp_dot(normal));
-        let spinor = w0.rotate(turn);
-        let (a, b) = (w0.perp_dot(spinor), spinor.perp_dot(w1));
-        let scale = 1.0 / (a + b);
-        let (t, s) = (a * scale, b * scale);
-        (t >= -SLACK && s >= -SLACK).then_some((s, t))
-    }
-
     /// The parameter of a unit normal, in `[0, 1]`.
     pub(crate) fn parameter(&self, normal: DVec2) -> Option<f64> {
-        self.barycentric(normal, 1.0)
-            .map(|(_, t)| t.clamp(0.0, 1.0))
+        let Sample { t, .. } = self.sample(self.origin, normal.perp())?;
+        Some(t.clamp(0.0, 1.0))
     }
 
     /// The tangent at a point with a velocity; none if its normal lies outside of the arc.
     #[inline]
     pub(crate) fn sample(&self, point: DVec2, velocity: DVec2) -> Option<Sample> {
-        let [w0, w1] = self.spinors;
-        let (speed, normal) = (velocity.length(), -velocity.perp());
-        let (s, t) = self.barycentric(normal, speed)?;
-        let length = (w0 * s + w1 * t).length_squared();
-        let numerator = normal.dot(point - self.origin) * length / speed;
-        numerator.is_finite().then_some(Sample { t, numerator })
+        let Remainder { t, rest, .. } = self.remainder(&[0.0; 6], [[point, velocity]])?;
+        Some(Sample {
+            t: t[0],
+            numerator: rest[0],
+        })
     }
 
     /// Unit spinors h apart are at least cos(h/2) long in between: the square of that.
