@@ -1,4 +1,4 @@
-//! Lengths, cusps and foot points of PH arcs.
+//! Lengths and foot points of PH arcs.
 
 use bezier_mass::bernstein;
 use glam::DVec2;
@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::PhArc;
 use crate::Error;
 use crate::arc_length::power_coefficients;
-use crate::polynomial::{is_positive, roots};
+use crate::polynomial::roots;
 use crate::quadrature::integrate;
 
 /// Largest `|w1 - w0|^2 / min(|w0|, |w1|)^2` for which the arc length is integrated by Gauss's rule.
@@ -74,26 +74,6 @@ impl<const N: usize> PhArc<N> {
         length + rest.signed_length().abs()
     }
 
-    /// Parameters in `[0, 1]` where the radius of curvature vanishes, in increasing order, isolated and certified
-    /// as roots of the radius polynomial; none for a point, where it vanishes everywhere.
-    #[must_use]
-    pub fn cusps(&self) -> Vec<f64> {
-        self.cusps_of_offset(0.0)
-    }
-
-    /// The same for the parallel arc at a distance.
-    pub(crate) fn cusps_of_offset(&self, distance: f64) -> Vec<f64> {
-        let radius = self.radius_polynomial().map(|r| r + distance);
-        if is_positive(&radius) || is_positive(&radius.map(|r| -r)) {
-            return Vec::new();
-        }
-        let noise = self.radius_noise() + f64::EPSILON * distance.abs();
-        if radius.iter().all(|r| r.abs() <= noise) {
-            return Vec::new();
-        }
-        roots(&radius)
-    }
-
     /// Parameters in `[0, 1]` of the points whose normal passes through `point`: the critical points of the distance,
     /// isolated and certified as roots of a polynomial of degree `N`. None if every normal does (a circle about it).
     #[must_use]
@@ -116,15 +96,6 @@ impl<const N: usize> PhArc<N> {
             })
             .collect();
         roots(&rate)
-    }
-
-    /// Rounding error of a coefficient of the radius polynomial: some ulps of its largest term.
-    pub(crate) fn radius_noise(&self) -> f64 {
-        let largest = self.g.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
-        let kappa = self.kappa();
-        let m = Self::CLASS as f64;
-        let length = self.w0.length_squared().max(self.w1.length_squared());
-        2.0 * m * m * f64::EPSILON * largest * length / (kappa * kappa)
     }
 
     /// Arc length from the start to parameter `t`, signed as [`PhArc::signed_length`].

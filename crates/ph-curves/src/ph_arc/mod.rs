@@ -2,6 +2,7 @@
 
 mod measure;
 mod motion;
+mod radius;
 
 use bezier_mass::{BezierCurve, bernstein};
 use glam::{DVec2, DVec3};
@@ -212,20 +213,6 @@ impl<const N: usize> PhArc<N> {
         2.0 * self.kappa() / self.spinor(t).length_squared()
     }
 
-    /// Signed radius of curvature at `t`.
-    #[must_use]
-    pub fn radius(&self, t: f64) -> f64 {
-        let w = self.spinor(t);
-        let dw = self.w1 - self.w0;
-        let [g, dg, ddg] = self.support_jet(t);
-        let (q, dq, ddq) = (
-            w.length_squared(),
-            2.0 * w.dot(dw),
-            2.0 * dw.length_squared(),
-        );
-        (q * ddg - dq * dg + ddq * g) / (4.0 * self.kappa() * self.kappa())
-    }
-
     /// Point, normal, support and radius at `t`.
     #[must_use]
     pub fn contact(&self, t: f64) -> Contact {
@@ -235,66 +222,6 @@ impl<const N: usize> PhArc<N> {
             support: self.support(t),
             radius: self.radius(t),
         }
-    }
-
-    /// Bernstein coefficients of the radius of curvature, a polynomial of degree `N - 1`.
-    ///
-    /// All of one sign certify that the arc is regular and convex.
-    #[must_use]
-    pub fn radius_polynomial(&self) -> [f64; N] {
-        let [q0, q1, q2] = self.normal_length();
-        let (dq0, dq1, ddq) = (q1 - q0, q2 - q1, q0 - 2.0 * q1 + q2);
-        let g = &self.g;
-        let m = Self::CLASS;
-        let (mut step, mut bend) = ([0.0; N], [0.0; N]);
-        for k in 0..m {
-            step[k] = g[k + 1] - g[k];
-        }
-        for k in 1..m {
-            bend[k] = step[k] - step[k - 1];
-        }
-        // Bernstein products of q with g'', q' with g' and q'' with g; the binomial ratios of the
-        // products cancel the factors m and m - 1 of the derivatives.
-        let scale = 1.0 / (4.0 * self.kappa() * self.kappa());
-        let [dq0, dq1, ddq] = [dq0, dq1, ddq].map(|c| 2.0 * scale * c);
-        let [q0, q1, q2] = [q0, q1, q2].map(|c| scale * c);
-        let [right, ahead, within, behind, left] = const { Self::radius_factors() };
-        let mut radius: [f64; N] = std::array::from_fn(|k| ddq * g[k] + within[k] * q1 * bend[k]);
-        for k in 0..m {
-            radius[k] -= right[k] * dq0 * step[k];
-        }
-        for k in 0..m {
-            radius[k + 1] -= left[k + 1] * dq1 * step[k];
-        }
-        for k in 1..m {
-            radius[k - 1] += ahead[k - 1] * q0 * bend[k];
-        }
-        for k in 1..m {
-            radius[k + 1] += behind[k + 1] * q2 * bend[k];
-        }
-        radius
-    }
-
-    /// For every coefficient `k` the numbers `r`, `r (r - 1)`, `2 r k`, `k (k - 1)` and `k`, with `r = N - 1 - k`.
-    const fn radius_factors() -> [[f64; N]; 5] {
-        let mut factors = [[0.0; N]; 5];
-        let mut k = 0;
-        while k < N {
-            let (left, right) = (k as f64, (N - 1 - k) as f64);
-            factors[0][k] = right;
-            factors[1][k] = right * (right - 1.0);
-            factors[2][k] = 2.0 * left * right;
-            factors[3][k] = left * (left - 1.0);
-            factors[4][k] = left;
-            k += 1;
-        }
-        factors
-    }
-
-    /// Signed radii at the two ends.
-    #[must_use]
-    pub fn end_radii(&self) -> [f64; 2] {
-        [self.radius(0.0), self.radius(1.0)]
     }
 
     /// The parameter at which the unit normal is `normal`, in `[0, 1]`, or none if that normal does
@@ -441,116 +368,4 @@ impl<const N: usize> TryFrom<StoredArc> for PhArc<N> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use std::f64::consts::PI;
-
-    /// An arc of class 5 with no symmetry, its normals turning by `turning`.
-    pub(super) fn arc(turning: f64) -> PhArc<6> {
-        let w0 = DVec2::from_angle(0.3) * 1.3;
-        let w1 = DVec2::from_angle(0.3 + 0.5 * turning) * 0.8;
-        PhArc::new(w0, w1, [2.0, 1.7, 2.2, 1.9, 2.4, 2.1]).unwrap()
-    }
-
-    #[test]
-    fn the_point_lies_on_its_tangent_and_moves_along_it() {
-        for turning in [1.1, -1.1, 2.9, 1e-2] {
-            let arc = arc(turning);
-            for t in [0.0, 0.2, 0.77, 1.0] {
-                let c = arc.contact(t);
-                let size = c.point.length();
-                assert!((c.normal.dot(c.point) - c.support).abs() < 1e-13 * size);
-                let step = 1e-6;
-                let chord = arc.point(t + step) - arc.point(t - step);
-                // dC/dpsi = R T, psi_t = 2 kappa / q
-                let (w0, w1) = arc.spinors();
-                let rate = 2.0 * w0.perp_dot(w1) / (w0 * (1.0 - t) + w1 * t).length_squared();
-                let predicted = c.normal.perp() * (c.radius * rate * 2.0 * step);
-                assert!(
-                    (chord - predicted).length() < 1e-4 * predicted.length(),
-                    "{turning} {t}"
-                );
-            }
-        }
-    }
-
-    #[test]
-    fn the_radius_polynomial_is_the_radius() {
-        let arc = arc(-0.9);
-        let polynomial = arc.radius_polynomial();
-        for t in [0.0, 0.31, 0.5, 1.0] {
-            assert!(
-                (bernstein::evaluate(&polynomial, t) - arc.radius(t)).abs()
-                    < 1e-11 * arc.radius(t).abs()
-            );
-        }
-    }
-
-    #[test]
-    fn the_dual_form_and_the_point_form_are_the_arc() {
-        for turning in [1.1, -2.0] {
-            let arc = arc(turning);
-            let dual = crate::DualCurve::from(&arc);
-            let points = arc.to_points().unwrap();
-            assert_eq!(points.degree(), 6);
-            for t in [0.0, 0.25, 0.9, 1.0] {
-                let (c, d) = (arc.contact(t), dual.contact(t).unwrap());
-                assert!(
-                    (c.point - d.point).length() < 1e-13 && (c.normal - d.normal).length() < 1e-14
-                );
-                assert!((c.radius - d.radius).abs() < 1e-11 * c.radius.abs());
-                assert!((points.point(t).unwrap() - c.point).length() < 1e-13);
-            }
-        }
-    }
-
-    #[test]
-    fn offsets_move_points_along_normals_and_lines_by_their_circle_distances() {
-        let arc = arc(1.4);
-        let moved = arc.offset(0.37);
-        let lines = crate::DualCurve::from(&arc)
-            .translate_lines(&arc.control_distances().map(|c| 0.37 * c))
-            .unwrap();
-        for t in [0.0, 0.4, 1.0] {
-            assert!((moved.point(t) - arc.point(t) - 0.37 * arc.normal(t)).length() < 1e-14);
-            assert!((moved.radius(t) - arc.radius(t) - 0.37).abs() < 1e-13);
-            assert!((lines.contact(t).unwrap().point - moved.point(t)).length() < 1e-14);
-        }
-    }
-
-    #[test]
-    fn a_normal_is_found_where_it_occurs() {
-        for turning in [1e-6, 1.3, -3.1] {
-            let arc = arc(turning);
-            for t in [0.0, 0.11, 0.5, 0.93, 1.0] {
-                let found = arc.parameter_beyond(arc.normal(t));
-                assert!((found - t).abs() < 1e-9, "{turning} {t} {found}");
-            }
-            assert_eq!(arc.parameter_of_normal(-arc.normal(0.5)), None);
-        }
-    }
-
-    #[test]
-    fn impossible_arcs_are_refused() {
-        let g = [1.0; 4];
-        assert!(matches!(
-            TQuartic::new(DVec2::X, DVec2::X, g),
-            Err(Error::NoTurning { .. })
-        ));
-        assert!(
-            matches!(TQuartic::new(DVec2::X, DVec2::Y, g), Err(Error::TurningTooLarge { turning }) if (turning - PI).abs() < 1e-15)
-        );
-        assert!(matches!(
-            TQuartic::new(DVec2::X, DVec2::ZERO, g),
-            Err(Error::ZeroDirection { .. })
-        ));
-        assert!(matches!(
-            TQuartic::new(DVec2::X, DVec2::NAN, g),
-            Err(Error::NonFinite { .. })
-        ));
-        assert!(matches!(
-            PhArc::<2>::new(DVec2::X, DVec2::ONE, [1.0; 2]),
-            Err(Error::Pencil { class: 1 })
-        ));
-    }
-}
+mod tests;
