@@ -181,6 +181,24 @@ pub enum Error {
         /// End of the domain.
         end: f64,
     },
+    /// The proof that an approximation is within a tolerance did not succeed on a part of the curve.
+    #[error(
+        "between {start} and {end} of the parameter the curve is not certain to be within the tolerance: the bound is {bound}"
+    )]
+    NotCertified {
+        /// Start of the part in the curve's parameter.
+        start: f64,
+        /// End of the part; equal to the start where the spline lacks the normal there.
+        end: f64,
+        /// The bound of the distance on this part.
+        bound: f64,
+    },
+    /// The curve does not tell bounds of its derivatives.
+    #[error("span {span} of the curve has no enclosure: implement PlaneCurve::enclosure")]
+    NoEnclosure {
+        /// The span.
+        span: usize,
+    },
     /// A subdivision reached its limit before the tolerance was met.
     #[error(
         "the piece [{start}, {end}] still misses the tolerance by a factor {excess} after {attempts} attempts"

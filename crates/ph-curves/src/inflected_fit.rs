@@ -2,7 +2,7 @@
 
 use crate::course::{End, Interval};
 use crate::fit::{Attempt, Fit, Fitter};
-use crate::wide::{CLOSE, Frame, NODES, PEAK, PEAKS, largest_between};
+use crate::wide::{APART, CLOSE, Frame, NODES, PEAK, PEAKS, largest_between};
 use crate::{InflectedArc, PlaneCurve, SupportJet};
 
 /// Shares at which the error is measured where one tangent in between is interpolated.
@@ -78,7 +78,7 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         } else {
             &SHARES
         };
-        let error = largest_between(shares, |share| {
+        let error = largest_between(shares, APART, |share| {
             let (own, numerator) = sample(share)?;
             let t = (own - from) / (1.0 - from);
             let difference = arc.support_numerator(own) - numerator;

@@ -61,9 +61,8 @@
 //! # Left open
 //!
 //! * An arc of class 3 cannot have an inflection: splines of them are G1 there, which is counted and reported.
-//! * The error of an approximation is measured at samples, with a factor for the peaks between them; it is not certified.
-//!   A certified bound needs the difference of two supports over a whole piece, and the parameters of the two curves are
-//!   joined by a square root.
+//! * The error of an approximation is measured at samples, with a factor for the peaks between them. What proves it,
+//!   [`Approximated::certify`], costs about a hundred times as much, and does not bound the rounding.
 //! * Trimming reports crossings, not mere contacts; the offset of a spline at a distance at which two branches just touch is
 //!   cut on one side of the contact or not at all.
 //! * Existence of a crossing is decided by Newton's iteration to rounding; its uniqueness and the absence of others are
@@ -88,6 +87,7 @@ mod arc_spline;
 mod assembly;
 mod breakpoints;
 mod cam;
+mod certificate;
 mod class3;
 mod complex;
 mod constant_width;
@@ -129,6 +129,7 @@ pub use arc_length::ArcLength;
 pub use arc_spline::{ArcSpline, Joint};
 pub use breakpoints::{Breakpoints, breakpoints};
 pub use cam::{Antisymmetric, Cam, HarmonicLift, Lift};
+pub use certificate::Enclosure;
 pub use class3::{G1Ends, LineElement};
 pub use constant_width::{
     EvolutePolygon, SupportJet, antipodal_arc, hermite_arc, interpolate_constant_width,

@@ -3,6 +3,7 @@
 use bezier_mass::BezierCurve;
 use glam::{DVec2, DVec3};
 
+use crate::course::End;
 use crate::dual::rational_curve;
 use crate::{Error, InflectedArc, PhArc};
 
@@ -73,6 +74,12 @@ impl<const N: usize> PlacedArc<N> {
     #[must_use]
     pub fn velocity(&self, t: f64) -> DVec2 {
         self.local.normal(t).perp() * (self.radius(t) * self.local.turning_rate(t))
+    }
+
+    /// Bernstein coefficients of the radius of curvature.
+    pub(crate) fn radius_coefficients(&self) -> Vec<f64> {
+        let radius = self.local.radius_polynomial();
+        radius.iter().map(|r| r + self.distance).collect()
     }
 
     fn cusps(&self) -> Vec<f64> {
@@ -212,9 +219,25 @@ impl Piece {
         }
     }
 
+    /// The parameter, also outside of `[0, 1]`, of the normal of a point of a curve that the piece approximates.
+    pub(crate) fn parameter_like(&self, end: &End) -> f64 {
+        match self {
+            Self::Segment(_) => 0.0,
+            Self::Arc(arc) => arc.local.parameter_beyond(end.normal),
+            Self::Wide(arc) => arc.local.parameter_beyond(end.normal),
+            Self::Wider(arc) => arc.local.parameter_beyond(end.normal),
+            Self::Inflected(arc) => arc.parameter_like(end.normal, end.curvature),
+        }
+    }
+
     /// Distance of `point` to the piece.
     #[must_use]
     pub fn distance(&self, point: DVec2) -> f64 {
+        self.nearest(point).1
+    }
+
+    /// The parameter of the nearest point of the piece, and its distance.
+    pub(crate) fn nearest(&self, point: DVec2) -> (f64, f64) {
         let feet = match self {
             Self::Segment(segment) => {
                 let along = segment.end - segment.start;
@@ -225,10 +248,13 @@ impl Piece {
             Self::Wider(arc) => arc.local.feet(point - arc.origin),
             Self::Inflected(arc) => arc.feet(point),
         };
-        let away = |t: f64| (self.point(t) - point).length();
-        feet.into_iter()
-            .map(away)
-            .fold(away(0.0).min(away(1.0)), f64::min)
+        [0.0, 1.0]
+            .into_iter()
+            .chain(feet)
+            .map(|t| (t, (self.point(t) - point).length()))
+            .fold((0.0, f64::INFINITY), |best, next| {
+                if next.1 < best.1 { next } else { best }
+            })
     }
 
     /// Signed turning angle of the normal, zero on a segment.

@@ -2,6 +2,8 @@
 
 use glam::DVec2;
 
+use crate::Enclosure;
+
 /// Why a curve has to be cut at a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -83,6 +85,13 @@ pub trait PlaneCurve {
                 - curvature_at(self, span, (t - step).max(0.0))
         };
         sampled_breaks(&rate, BreakKind::Vertex, breaks);
+    }
+
+    /// Bounds over a range of the local parameter, for [`Approximated::certify`](crate::Approximated::certify).
+    ///
+    /// The default has none.
+    fn enclosure(&self, _span: usize, _range: [f64; 2]) -> Option<Enclosure> {
+        None
     }
 
     /// Direction of travel at `t`, taken from one side, not normalised; zero only for a span that is a point.

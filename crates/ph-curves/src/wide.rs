@@ -199,7 +199,7 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         };
 
         let nodes = frame.remainder(&quintic, self.course.tangents(interval, NODES))?;
-        let uneven = is_uneven(nodes.t);
+        let uneven = largest_gap(nodes.t) > APART;
         let error = PEAK * nodes.largest_beyond(|_| 0.0);
         if error <= allowed && !uneven && !over_knots {
             return wide([0.0; 4], error, 6.0);
@@ -220,7 +220,8 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         let mut error = PEAK * peaks.largest_beyond(|t| cubic.value(t));
         if error <= allowed && (uneven || over_knots) {
             let shares: &[f64] = if over_knots { &CLOSE } else { &PEAKS };
-            error = PEAK * self.largest_beyond(interval, &frame, &quintic, &cubic, shares)?;
+            error =
+                PEAK * self.largest_beyond(interval, &frame, &quintic, &cubic, (shares, APART))?;
         }
         if error <= allowed {
             return wide(cubic.homogeneous(), error, 10.0);
@@ -234,12 +235,12 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         let [e, f, g, h, i] = [0, 1, 2, 3, 4].map(|k| (peaks.t[k], quotient[k]));
         let all = [e, a, f, b, g, c, h, d, i];
         let octic = Newton::through(all.map(|(t, _)| t), all.map(|(_, quotient)| quotient));
-        let error = if uneven {
-            self.largest_beyond(interval, &frame, &quintic, &octic, &LATE_PEAKS)?
-        } else {
-            let late = frame.remainder(&quintic, self.course.tangents(interval, LATE_PEAKS))?;
-            late.largest_beyond(|t| octic.value(t))
-        };
+        let late = frame.remainder(&quintic, self.course.tangents(interval, LATE_PEAKS))?;
+        let mut error = late.largest_beyond(|t| octic.value(t));
+        if largest_gap(late.t) > LATE_APART && LATE_PEAK * error <= allowed {
+            let closely = (&LATE_PEAKS[..], LATE_APART);
+            error = self.largest_beyond(interval, &frame, &quintic, &octic, closely)?;
+        }
         let error = LATE_PEAK * error;
         if error > allowed {
             return Some(attempt(None, error, 15.0));
@@ -255,9 +256,9 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         frame: &Frame,
         quintic: &[f64; 6],
         factor: &Newton<K>,
-        shares: &[f64],
+        (shares, apart): (&[f64], f64),
     ) -> Option<f64> {
-        largest_between(shares, |share| {
+        largest_between(shares, apart, |share| {
             let tangent = self.course.tangents(interval, [share]);
             let Remainder { t, weight, rest } = frame.remainder(quintic, tangent)?;
             Some((t[0], rest[0] - weight[0] * factor.value(t[0])))
@@ -301,30 +302,48 @@ impl Frame {
 
 /// Parameters farther apart than this leave room for an error that samples do not show: those of a curve of slowly varying
 /// curvature are about 0.2 apart.
-const APART: f64 = 0.3;
+pub(crate) const APART: f64 = 0.3;
+/// The same for the closer samples of class 14.
+const LATE_APART: f64 = 0.16;
+/// There samples are taken until parameters are as near as this, or the shares as near as that: a cusp.
+const CLOSER: f64 = 0.1;
+const LEAST_STEP: f64 = 1.0 / (1 << 24) as f64;
 
-/// Whether the normals of the nodes are unevenly distributed.
-fn is_uneven([a, b, c, d]: [f64; 4]) -> bool {
-    a.max(b - a).max(c - b).max(d - c).max(1.0 - d) > APART
+/// The largest gap between parameters in `[0, 1]`, and between them and the ends.
+fn largest_gap<const K: usize>(t: [f64; K]) -> f64 {
+    let (mut most, mut last) = (0.0_f64, 0.0);
+    for t in t.into_iter().chain([1.0]) {
+        most = most.max(t - last);
+        last = t;
+    }
+    most
 }
 
-/// The largest error at increasing shares, and between two of them where their parameters in `[0, 1]` are far apart; `at` gives
+/// The largest error at increasing shares, and between two of them as long as their parameters in `[0, 1]` are far apart; `at` gives
 /// parameter and error at a share.
 pub(crate) fn largest_between(
     shares: &[f64],
+    apart: f64,
     at: impl Fn(f64) -> Option<(f64, f64)>,
 ) -> Option<f64> {
     let (mut most, mut last) = (0.0_f64, (0.0, 0.0));
+    let mut waiting = Vec::new();
     for share in shares.iter().copied().chain([1.0]) {
         let (t, error) = if share < 1.0 { at(share)? } else { (1.0, 0.0) };
         most = most.max(error.abs());
-        if t - last.1 > APART {
-            for part in [0.25, 0.5, 0.75] {
-                let (_, error) = at(last.0 + part * (share - last.0))?;
-                most = most.max(error.abs());
-            }
+        if t - last.1 > apart {
+            waiting.push([last, (share, t)]);
         }
         last = (share, t);
+    }
+    while let Some([from, to]) = waiting.pop() {
+        let share = 0.5 * (from.0 + to.0);
+        let (t, error) = at(share)?;
+        most = most.max(error.abs());
+        let halves = [[from, (share, t)], [(share, t), to]];
+        let far =
+            |[from, to]: &[(f64, f64); 2]| to.1 - from.1 > CLOSER && to.0 - from.0 > LEAST_STEP;
+        waiting.extend(halves.into_iter().filter(far));
     }
     Some(most)
 }

@@ -122,6 +122,23 @@ impl InflectedArc {
         self.w0 + (self.w1 - self.w0) * (own * own)
     }
 
+    /// The parameter at which the normal is `normal` and the curvature has the sign of `curvature`, also outside of `[0, 1]`: every
+    /// normal occurs on both sides of the inflection.
+    pub(crate) fn parameter_like(&self, normal: DVec2, curvature: f64) -> f64 {
+        let plain = crate::PhArc::from_parts(self.w0, self.w1, self.r);
+        let own = plain.parameter_beyond(normal).max(0.0).sqrt();
+        let [from, to] = self.range;
+        let through = from * to < 0.0;
+        // The radius at t = 1/2 of the range, or that times a negative parameter.
+        let positive = if through {
+            self.radius_times_parameter(0.5) * curvature >= 0.0
+        } else {
+            from + to > 0.0
+        };
+        let own = if positive { own } else { -own };
+        (own - from) / (to - from)
+    }
+
     /// Unit normal at `t`.
     #[must_use]
     pub fn normal(&self, t: f64) -> DVec2 {

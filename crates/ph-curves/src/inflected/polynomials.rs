@@ -59,6 +59,14 @@ impl InflectedArc {
         sum
     }
 
+    /// The coefficients of the radius times the own parameter, that parameter at both ends, and a bound of the speed over the product.
+    pub(crate) fn radius_times_own(&self) -> ([f64; 11], [f64; 2], f64) {
+        // As on plain arcs, with dτ/dt = 2t: the factor t is in the product.
+        let turning = 2.0 * (self.w1 - self.w0).length_squared() / self.kappa().abs();
+        let rate = 2.0 * turning * self.span().abs();
+        (self.scaled_radius(), self.range, rate)
+    }
+
     /// Whether no cusp lies on the piece and its radius of curvature has the sign of `sign` times `t`, certified by the signs of
     /// Bernstein coefficients.
     pub(crate) fn is_regular(&self, sign: f64) -> bool {

@@ -213,6 +213,11 @@ impl<const N: usize> PhArc<N> {
         2.0 * self.kappa() / self.spinor(t).length_squared()
     }
 
+    /// An upper bound of the absolute turning rate: `|w|` is at least the distance of the line through both spinors from zero.
+    pub(crate) fn most_turning_rate(&self) -> f64 {
+        2.0 * (self.w1 - self.w0).length_squared() / self.kappa().abs()
+    }
+
     /// Point, normal, support and radius at `t`.
     #[must_use]
     pub fn contact(&self, t: f64) -> Contact {
