@@ -4,6 +4,7 @@ use bezier_mass::bernstein;
 use glam::DVec2;
 
 use crate::plane_curve::{STRAIGHT, one_signed, push_roots};
+use crate::polynomial::range;
 use crate::{Break, BreakKind, Enclosure, Error, PlaneCurve, Side};
 
 /// A connected path of cubic Bézier spans, open or closed; lines and quadratics are cubics too.
@@ -274,21 +275,14 @@ impl PlaneCurve for CubicPath {
 
     fn enclosure(&self, span: usize, [from, to]: [f64; 2]) -> Option<Enclosure> {
         let legs = legs(&self.cubics[span]);
-        let bounds = |values: &[f64]| {
-            let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-            [
-                least,
-                values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-            ]
-        };
         // det(r', r'') is 18 times the bend, and r' 3 times the hodograph of the legs.
         let bend = bernstein::restrict(&bend(legs), from, to);
         let hodograph = bernstein::restrict(&legs, from, to);
         let square = bernstein::product_with(&hodograph, &hodograph, |a, b| a.dot(*b));
         let second = [from, to].map(|t| self.jet(span, t)[2].length());
         Some(Enclosure {
-            speed_squared: bounds(&square).map(|q| 9.0 * q),
-            bend: bounds(&bend).map(|b| 18.0 * b),
+            speed_squared: range(&square).map(|q| 9.0 * q),
+            bend: range(&bend).map(|b| 18.0 * b),
             acceleration: second[0].max(second[1]),
         })
     }

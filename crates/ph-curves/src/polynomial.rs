@@ -25,6 +25,15 @@ fn is_positive_on_parts<const N: usize>(coefficients: &[f64; N], halvings: usize
     is_positive_on_parts(&left, halvings - 1) && is_positive_on_parts(&right, halvings - 1)
 }
 
+/// The least and the greatest of some coefficients: bounds of the values.
+pub(crate) fn range(coefficients: &[f64]) -> [f64; 2] {
+    coefficients
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], c| {
+            [least.min(*c), most.max(*c)]
+        })
+}
+
 /// The certified roots in `[0, 1]`, in increasing order; none of zero.
 pub(crate) fn roots(coefficients: &[f64]) -> Vec<f64> {
     let mut solver = variation::Solver::new().without_exact();

@@ -4,7 +4,8 @@ use bezier_mass::{BSplineCurve, BezierCurve, bernstein};
 use glam::{DVec2, DVec3};
 
 use crate::plane_curve::{STRAIGHT, push_roots};
-use crate::{Break, BreakKind, Error, PlaneCurve, Side};
+use crate::polynomial::range;
+use crate::{Break, BreakKind, Enclosure, Error, PlaneCurve, Side};
 
 /// A connected path of rational Bézier curves of any degrees: a B-spline or NURBS curve with any knots, an outline of lines
 /// and conics.
@@ -115,6 +116,10 @@ impl PlaneCurve for RationalPath {
         self.spans[span].vertices(0, breaks);
     }
 
+    fn enclosure(&self, span: usize, part: [f64; 2]) -> Option<Enclosure> {
+        self.spans[span].enclosure(0, part)
+    }
+
     fn direction(&self, span: usize, t: f64, side: Side) -> DVec2 {
         self.spans[span].direction(0, t, side)
     }
@@ -176,6 +181,36 @@ impl PlaneCurve for BezierCurve<DVec2> {
                 rational_vertex_polynomial(&bend_polynomial(&h), &weight, &velocity_polynomial(&h));
             push_roots(&rate, BreakKind::Vertex, breaks);
         }
+    }
+
+    fn enclosure(&self, _span: usize, [from, to]: [f64; 2]) -> Option<Enclosure> {
+        use bernstein::{derivative, product_with, restrict};
+        let h = homogeneous(self);
+        let n = self.degree() as f64;
+        let width = to - from;
+        let weight = restrict(&h.iter().map(|x| x.x).collect::<Vec<_>>(), from, to);
+        let [light, heavy] = range(&weight);
+        if light <= 0.0 && heavy >= 0.0 {
+            return None;
+        }
+        // r' = n V / w², r'' = n (V' w - 2 V w') / w³ and det(r', r'') = n² (n - 1) S / w³ with these polynomials V and S.
+        let velocity = restrict(&velocity_polynomial(&h), from, to);
+        let bend = restrict(&bend_polynomial(&h), from, to);
+        let square = product_with(&velocity, &velocity, |a, b| a.dot(*b));
+        let change = product_with(&weight, &derivative(&velocity), |w, v| *v * *w);
+        let drag = product_with(&derivative(&weight), &velocity, |w, v| *v * (2.0 * *w));
+        let longest = |v: &[DVec2]| v.iter().fold(0.0, |most, v| v.length().max(most));
+        let over = |part: [f64; 2], power: i32, factor: f64| {
+            let [a, b] = [light, heavy].map(|w| factor / w.powi(power));
+            range(&[part[0] * a, part[0] * b, part[1] * a, part[1] * b])
+        };
+        let least_weight = light.abs().min(heavy.abs());
+        Some(Enclosure {
+            speed_squared: over(range(&square), 4, n * n),
+            bend: over(range(&bend), 3, n * n * (n - 1.0)),
+            // The derivatives are by the parameter of the part.
+            acceleration: n * (longest(&change) + longest(&drag)) / (width * least_weight.powi(3)),
+        })
     }
 
     fn direction(&self, _span: usize, t: f64, side: Side) -> DVec2 {

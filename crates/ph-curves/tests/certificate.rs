@@ -1,7 +1,8 @@
 //! Approximations proven to be within their tolerance.
 
+use bezier_mass::{BSplineCurve, Knots, MassPoint};
 use ph_curves::glam::{DVec2, dvec2};
-use ph_curves::{Approximation, CubicPath, Error, Joint, PlaneCurve, approximate};
+use ph_curves::{Approximation, CubicPath, Error, Joint, PlaneCurve, RationalPath, approximate};
 
 /// Random closed and open B-splines with inflections, of size 10.
 fn walk(seed: u64) -> CubicPath {
@@ -87,6 +88,64 @@ fn cusps_corners_and_straight_parts_are_certified() {
             let result = approximate(curve, &how).unwrap();
             let proven = result.certify(curve, how.tolerance);
             assert!(proven.is_ok(), "curve {index}, {how:?}: {proven:?}");
+        }
+    }
+}
+
+#[test]
+fn enclosures_hold_the_derivatives() {
+    let nurbs = nurbs();
+    let cubics = walk(7);
+    let curves: [&dyn PlaneCurve; 2] = [&nurbs, &cubics];
+    for curve in curves {
+        for span in 0..curve.spans() {
+            for part in [[0.0, 1.0], [0.2, 0.3], [0.7, 1.0], [0.5, 0.5001]] {
+                let bounds = curve.enclosure(span, part).unwrap();
+                let inside = |[least, most]: [f64; 2], value: f64| {
+                    let slack = 1e-11 * (least.abs() + most.abs());
+                    (least - slack..=most + slack).contains(&value)
+                };
+                for k in 0..=20 {
+                    let t = part[0] + (part[1] - part[0]) * f64::from(k) / 20.0;
+                    let [_, first, second] = curve.jet(span, t);
+                    assert!(inside(bounds.speed_squared, first.length_squared()));
+                    assert!(inside(bounds.bend, first.perp_dot(second)));
+                    assert!(second.length() <= bounds.acceleration * (1.0 + 1e-11));
+                }
+                // They are those of the part: near to the values on a short one.
+                if part[1] - part[0] < 1e-3 {
+                    let [least, most] = bounds.speed_squared;
+                    assert!(most - least < 0.01 * most);
+                }
+            }
+        }
+    }
+}
+
+/// A NURBS curve with weights between 0.4 and 3, of degree 4.
+fn nurbs() -> RationalPath {
+    let knots = Knots::clamped(4, &[0.0, 1.0, 1.5, 4.0]).unwrap();
+    let control = [
+        (0.0, 0.0, 1.0),
+        (1.0, 3.0, 0.4),
+        (4.0, 4.0, 3.0),
+        (6.0, 1.0, 1.0),
+        (9.0, -1.0, 2.0),
+        (11.0, 2.0, 0.7),
+        (12.0, 5.0, 1.0),
+    ]
+    .map(|(x, y, w)| MassPoint::point(dvec2(x, y), w));
+    RationalPath::nurbs(&BSplineCurve::new(knots, control.to_vec()).unwrap()).unwrap()
+}
+
+#[test]
+fn rational_curves_are_certified() {
+    let curve = nurbs();
+    for tolerance in [1e-3, 1e-6] {
+        for how in approximations(tolerance) {
+            let result = approximate(&curve, &how).unwrap();
+            let proven = result.certify(&curve, tolerance);
+            assert!(proven.is_ok(), "{how:?}: {proven:?}");
         }
     }
 }
