@@ -62,7 +62,7 @@
 //!
 //! * An arc of class 3 cannot have an inflection: splines of them are G1 there, which is counted and reported.
 //! * The error of an approximation is measured at samples, with a factor for the peaks between them. What proves it,
-//!   [`Approximated::certify`], costs about a hundred times as much, and does not bound the rounding.
+//!   [`Approximated::certify`], takes ten to three hundred times as long, and does not bound the rounding.
 //! * Trimming reports crossings, not mere contacts; the offset of a spline at a distance at which two branches just touch is
 //!   cut on one side of the contact or not at all.
 //! * Existence of a crossing is decided by Newton's iteration to rounding; its uniqueness and the absence of others are

@@ -68,6 +68,12 @@ impl Demo for TQuartic {
         context.number("pieces", result.spline.pieces().len(), Target::Free);
         let hausdorff = largest_distance(&curve, &result, &result.spline, 0.0, samples);
         context.number("hausdorff", hausdorff, Target::AtMost(self.tolerance));
+        let certified = result.certify(&curve, self.tolerance)?;
+        context.number(
+            "hausdorff_certified",
+            certified,
+            Target::AtMost(self.tolerance),
+        );
         context.number("g2_max_jump", result.spline.g2_jump(), Target::AtMost(1e-8));
         context.number("g1_only_joints", result.g1_joints, Target::Free);
         let offset = result.spline.offset(MEASURED)?;
