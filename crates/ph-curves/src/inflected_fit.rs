@@ -6,7 +6,7 @@ use crate::wide::{APART, CLOSE, Frame, NODES, PEAK, PEAKS, largest_between};
 use crate::{InflectedArc, PlaneCurve, SupportJet};
 
 /// Shares at which the error is measured where one tangent in between is interpolated.
-const SHARES: [f64; 6] = [0.12, 0.26, 0.38, 0.62, 0.74, 0.88];
+const SHARES: [f64; 8] = [0.1, 0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9];
 /// Where the one tangent may lie; the one farther from the inflection is taken, for its digits.
 const MIDDLES: [f64; 2] = [0.45, 0.55];
 

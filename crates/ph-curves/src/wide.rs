@@ -12,9 +12,13 @@ use crate::{Arcs, PhArc, PlaneCurve, SupportJet};
 pub(crate) const NODES: [f64; 4] = [0.1797, 0.387, 0.613, 0.8203];
 /// Shares between these nodes, where the error of class 9 peaks; the other nodes of class 14.
 pub(crate) const PEAKS: [f64; 5] = [0.1, 0.28, 0.5, 0.72, 0.9];
-/// Shares between the nodes of class 14, where its error peaks.
-const LATE_PEAKS: [f64; 10] = [
-    0.05, 0.14, 0.23, 0.333, 0.444, 0.556, 0.667, 0.77, 0.86, 0.95,
+/// The share where errors of lower classes peak besides, which is not looked at where the error at the nodes times a larger
+/// factor is small enough.
+const MIDDLE: [f64; 1] = [0.5];
+const SURE: f64 = 16.0;
+/// Shares between the nodes of class 14, where its error peaks, twice at the ends.
+const LATE_PEAKS: [f64; 12] = [
+    0.02, 0.05, 0.14, 0.23, 0.333, 0.444, 0.556, 0.667, 0.77, 0.86, 0.95, 0.98,
 ];
 /// Shares for arcs of class 9 over knots, where the error has other peaks.
 pub(crate) const CLOSE: [f64; 15] = [
@@ -199,29 +203,38 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
         };
 
         let nodes = frame.remainder(&quintic, self.course.tangents(interval, NODES))?;
-        let uneven = largest_gap(nodes.t) > APART;
-        let error = PEAK * nodes.largest_beyond(|_| 0.0);
-        if error <= allowed && !uneven && !over_knots {
-            return wide([0.0; 4], error, 6.0);
-        }
-        // The remainder over t^3 (1-t)^3, first as a line through the inner nodes, which is class 7 ...
-        let quotient = nodes.quotient();
-        let slope = (quotient[2] - quotient[1]) / (nodes.t[2] - nodes.t[1]);
-        let line = |t: f64| quotient[1] + slope * (t - nodes.t[1]);
-        let error = PEAK * nodes.largest_beyond(line);
-        if error <= allowed && !uneven && !over_knots {
-            // Raised by two degrees.
-            let (a, b) = (line(0.0), line(1.0));
-            return wide([a, 2.0 * a + b, a + 2.0 * b, b], error, 8.0);
+        let ([a, b, c, d], [at_a, at_b, at_c, at_d]) = (nodes.quotient(), nodes.t);
+        // The remainder over t^3 (1-t)^3, first as nothing, then as a line through the inner nodes, which is class 7 ...
+        let rise = (c - b) / (at_c - at_b);
+        let line = [b - rise * at_b, rise];
+        let low_class = [([0.0; 2], 6.0), (line, 8.0)].map(|(line, order)| {
+            let error = nodes.largest_beyond(|t| line[0] + line[1] * t);
+            (line, order, error)
+        });
+        let is_even = !over_knots && largest_gap(nodes.t) <= APART;
+        let within = |(_, _, error): &([f64; 2], f64, f64)| is_even && PEAK * error <= allowed;
+        if let Some((line, order, mut error)) = low_class.into_iter().find(within) {
+            if SURE * error > allowed {
+                let middle = frame.remainder(&quintic, self.course.tangents(interval, MIDDLE))?;
+                error = middle.largest_beyond(|t| line[0] + line[1] * t).max(error);
+            }
+            if PEAK * error <= allowed {
+                // Raised by two degrees.
+                let (a, b) = (line[0], line[0] + line[1]);
+                let inner = [a, 2.0 * a + b, a + 2.0 * b, b];
+                return wide(inner, PEAK * error, order);
+            }
         }
         // ... then as a cubic through all four ...
-        let cubic = Newton::through(nodes.t, quotient);
+        let cubic = Newton::through(nodes.t, [a, b, c, d]);
         let peaks = frame.remainder(&quintic, self.course.tangents(interval, PEAKS))?;
         let mut error = PEAK * peaks.largest_beyond(|t| cubic.value(t));
-        if error <= allowed && (uneven || over_knots) {
+        let [p, q, r, s, u] = peaks.t;
+        let parameters = [p, at_a, q, at_b, r, at_c, s, at_d, u];
+        if error <= allowed && (over_knots || largest_gap(parameters) > CLOSE_APART) {
             let shares: &[f64] = if over_knots { &CLOSE } else { &PEAKS };
-            error =
-                PEAK * self.largest_beyond(interval, &frame, &quintic, &cubic, (shares, APART))?;
+            let closely = (shares, CLOSE_APART);
+            error = PEAK * self.largest_beyond(interval, &frame, &quintic, &cubic, closely)?;
         }
         if error <= allowed {
             return wide(cubic.homogeneous(), error, 10.0);
@@ -230,11 +243,8 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
             return Some(attempt(None, error, 10.0));
         }
         // ... and then through all nine.
-        let [a, b, c, d] = [0, 1, 2, 3].map(|k| (nodes.t[k], quotient[k]));
-        let quotient = peaks.quotient();
-        let [e, f, g, h, i] = [0, 1, 2, 3, 4].map(|k| (peaks.t[k], quotient[k]));
-        let all = [e, a, f, b, g, c, h, d, i];
-        let octic = Newton::through(all.map(|(t, _)| t), all.map(|(_, quotient)| quotient));
+        let [p, q, r, s, u] = peaks.quotient();
+        let octic = Newton::through(parameters, [p, a, q, b, r, c, s, d, u]);
         let late = frame.remainder(&quintic, self.course.tangents(interval, LATE_PEAKS))?;
         let mut error = late.largest_beyond(|t| octic.value(t));
         if largest_gap(late.t) > LATE_APART && LATE_PEAK * error <= allowed {
@@ -302,9 +312,10 @@ impl Frame {
 
 /// Parameters farther apart than this leave room for an error that samples do not show: those of a curve of slowly varying
 /// curvature are about 0.2 apart.
-pub(crate) const APART: f64 = 0.3;
-/// The same for the closer samples of class 14.
-const LATE_APART: f64 = 0.16;
+pub(crate) const APART: f64 = 0.26;
+/// The same where more samples are taken.
+const CLOSE_APART: f64 = 0.16;
+const LATE_APART: f64 = 0.13;
 /// There samples are taken until parameters are as near as this, or the shares as near as that: a cusp.
 const CLOSER: f64 = 0.1;
 const LEAST_STEP: f64 = 1.0 / (1 << 24) as f64;
