@@ -62,16 +62,11 @@ impl ArcSpline {
                 what: "an offset distance",
             });
         }
-        let pieces = self
-            .pieces
-            .iter()
-            .map(|piece| piece.offset(distance))
-            .collect();
-        Ok(Self {
-            pieces,
-            joints: self.joints.clone(),
-            closed: self.closed,
-        })
+        let mut moved = self.clone();
+        for piece in &mut moved.pieces {
+            piece.shift(distance);
+        }
+        Ok(moved)
     }
 
     /// Total arc length of the pieces.

@@ -44,7 +44,8 @@ impl End {
         side: Side,
     ) -> Result<Self, Error> {
         let [point, first, second] = curve.jet(span, t);
-        if !(point.is_finite() && first.is_finite() && second.is_finite()) {
+        // One sum for all: what is not finite, or overflows, stays so.
+        if !(point + first + second).is_finite() {
             return Err(Error::NonFinite {
                 what: "a point or derivative of the curve",
             });
@@ -107,6 +108,12 @@ impl End {
     #[inline]
     pub(crate) fn parameter(&self) -> f64 {
         self.span as f64 + self.t
+    }
+
+    /// Whether another end lies farther on.
+    #[inline]
+    pub(crate) fn is_before(&self, other: &Self) -> bool {
+        self.span < other.span || (self.span == other.span && self.t < other.t)
     }
 
     /// Whether a curve goes on in `next` with the same tangent.

@@ -151,7 +151,7 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
         let mut rest = run;
         loop {
             let end = self.longest(&rest)?;
-            if end.parameter() >= rest.end.parameter() {
+            if !end.is_before(&rest.end) {
                 break;
             }
             rest = self.fitter.course.rest(&rest, end);
@@ -180,7 +180,7 @@ impl<'a, C: PlaneCurve + ?Sized> Cover<'a, C> {
             let attempt = self.fitter.attempt(&part, inflection.as_ref());
             excess = attempt.error / self.fitter.how.tolerance;
             if let Some(fit) = attempt.fit.as_ref().filter(|_| excess <= 1.0) {
-                let full = end.parameter() >= search.limit.parameter();
+                let full = !end.is_before(&search.limit);
                 let promise = if full {
                     LENGTHENING.1
                 } else {

@@ -186,8 +186,7 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
     fn beside(&self, interval: &Interval, inflection: Option<&End>) -> Option<Attempt> {
         let Interval { start, end } = interval;
         let curvatures = [start.curvature.abs(), end.curvature.abs()];
-        let ratio = curvatures[0].min(curvatures[1]) / curvatures[0].max(curvatures[1]);
-        if ratio > FALLING {
+        if curvatures[0].min(curvatures[1]) > FALLING * curvatures[0].max(curvatures[1]) {
             return None;
         }
         let continued = (start.span == end.span)

@@ -86,14 +86,6 @@ impl<const N: usize> PlacedArc<N> {
         self.local.cusps_of_offset(self.distance)
     }
 
-    #[inline]
-    fn offset(&self, distance: f64) -> Self {
-        Self {
-            distance: self.distance + distance,
-            ..*self
-        }
-    }
-
     fn part(&self, from: f64, to: f64) -> Result<Self, Error> {
         Ok(Self {
             local: self.local.part(from, to)?,
@@ -271,21 +263,25 @@ impl Piece {
 
     /// The parallel piece at signed distance `distance` along the normals; exact.
     #[must_use]
-    #[inline]
     pub fn offset(&self, distance: f64) -> Self {
+        let mut moved = *self;
+        moved.shift(distance);
+        moved
+    }
+
+    /// Moves the piece along its normals.
+    #[inline]
+    pub(crate) fn shift(&mut self, distance: f64) {
         match self {
             Self::Segment(segment) => {
                 let shift = segment.normal * distance;
-                Self::Segment(Segment {
-                    start: segment.start + shift,
-                    end: segment.end + shift,
-                    ..*segment
-                })
+                segment.start += shift;
+                segment.end += shift;
             }
-            Self::Arc(arc) => Self::Arc(arc.offset(distance)),
-            Self::Wide(arc) => Self::Wide(arc.offset(distance)),
-            Self::Wider(arc) => Self::Wider(arc.offset(distance)),
-            Self::Inflected(arc) => Self::Inflected(arc.offset(distance)),
+            Self::Arc(arc) => arc.distance += distance,
+            Self::Wide(arc) => arc.distance += distance,
+            Self::Wider(arc) => arc.distance += distance,
+            Self::Inflected(arc) => arc.shift(distance),
         }
     }
 

@@ -27,7 +27,7 @@ pub(crate) const CLOSE: [f64; 15] = [
 /// The true error exceeds that at the shares by a little: parts are not cut at vertices, where peaks move. The order makes
 /// the factor cheap.
 pub(crate) const PEAK: f64 = 2.0;
-/// The same at the closer shares of class 14: on three thousand random splines the true error stayed below the tolerance.
+/// The same at the closer shares of class 14.
 const LATE_PEAK: f64 = 1.3;
 /// An error of class 9 above this many tolerances is too large for class 14 too.
 const HOPELESS: f64 = 30.0;
@@ -182,6 +182,36 @@ impl Frame {
     }
 }
 
+/// What all fits of one interval start from.
+struct Base<'a> {
+    interval: &'a Interval,
+    frame: Frame,
+    /// The quintic that meets the conditions at the ends.
+    quintic: [f64; 6],
+    /// The error that is allowed for numerators of supports.
+    allowed: f64,
+}
+
+impl Base<'_> {
+    fn over_knots(&self) -> bool {
+        self.interval.start.span < self.interval.end.span
+    }
+
+    fn attempt(&self, fit: Option<Fit>, error: f64, order: f64) -> Attempt {
+        Attempt {
+            fit,
+            error: error / self.frame.least_length(),
+            order,
+        }
+    }
+
+    /// The arc of class 9 with the quintic and these coefficients of the factor; none if it may have a cusp.
+    fn class_9(&self, factor: [f64; 4], error: f64, order: f64) -> Option<Attempt> {
+        let arc = self.frame.arc(&self.quintic, &factor, &self.interval.end)?;
+        Some(self.attempt(Some(Fit::Wide(arc)), error, order))
+    }
+}
+
 impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
     /// One arc of class 9 or 14: six support coefficients from the elements at the ends, the others from tangents in between,
     /// which first tell whether a lower class would do.
@@ -189,91 +219,111 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
     pub(crate) fn wide(&self, interval: &Interval) -> Option<Attempt> {
         let Interval { start, end } = interval;
         let frame = Frame::new(start, end);
-        let quintic = frame.ends(start, end);
-        let allowed = self.how.tolerance * frame.least_length();
-        let over_knots = start.span < end.span;
-        let attempt = |fit: Option<Fit>, error: f64, order: f64| Attempt {
-            fit,
-            error: error / frame.least_length(),
-            order,
+        let base = Base {
+            quintic: frame.ends(start, end),
+            allowed: self.how.tolerance * frame.least_length(),
+            interval,
+            frame,
         };
-        let wide = |factor: [f64; 4], error: f64, order: f64| {
-            let arc = frame.arc(&quintic, &factor, end)?;
-            Some(attempt(Some(Fit::Wide(arc)), error, order))
-        };
-
-        let nodes = frame.remainder(&quintic, self.course.tangents(interval, NODES))?;
-        let ([a, b, c, d], [at_a, at_b, at_c, at_d]) = (nodes.quotient(), nodes.t);
-        // The remainder over t^3 (1-t)^3, first as nothing, then as a line through the inner nodes, which is class 7 ...
-        let rise = (c - b) / (at_c - at_b);
-        let line = [b - rise * at_b, rise];
-        let low_class = [([0.0; 2], 6.0), (line, 8.0)].map(|(line, order)| {
-            let error = nodes.largest_beyond(|t| line[0] + line[1] * t);
-            (line, order, error)
-        });
-        let is_even = !over_knots && largest_gap(nodes.t) <= APART;
-        let within = |(_, _, error): &([f64; 2], f64, f64)| is_even && PEAK * error <= allowed;
-        if let Some((line, order, mut error)) = low_class.into_iter().find(within) {
-            if SURE * error > allowed {
-                let middle = frame.remainder(&quintic, self.course.tangents(interval, MIDDLE))?;
-                error = middle.largest_beyond(|t| line[0] + line[1] * t).max(error);
-            }
-            if PEAK * error <= allowed {
-                // Raised by two degrees.
-                let (a, b) = (line[0], line[0] + line[1]);
-                let inner = [a, 2.0 * a + b, a + 2.0 * b, b];
-                return wide(inner, PEAK * error, order);
-            }
+        let nodes = self.remainder(&base, NODES)?;
+        let quotient = nodes.quotient();
+        if !base.over_knots()
+            && largest_gap(nodes.t) <= APART
+            && let Some((line, error, order)) = self.low_class(&base, &nodes, quotient)
+        {
+            // Raised by two degrees.
+            let (a, b) = (line[0], line[0] + line[1]);
+            return base.class_9([a, 2.0 * a + b, a + 2.0 * b, b], error, order);
         }
-        // ... then as a cubic through all four ...
-        let cubic = Newton::through(nodes.t, [a, b, c, d]);
-        let peaks = frame.remainder(&quintic, self.course.tangents(interval, PEAKS))?;
-        let mut error = PEAK * peaks.largest_beyond(|t| cubic.value(t));
-        let [p, q, r, s, u] = peaks.t;
-        let parameters = [p, at_a, q, at_b, r, at_c, s, at_d, u];
-        if error <= allowed && (over_knots || largest_gap(parameters) > CLOSE_APART) {
-            let shares: &[f64] = if over_knots { &CLOSE } else { &PEAKS };
-            let closely = (shares, CLOSE_APART);
-            error = PEAK * self.largest_beyond(interval, &frame, &quintic, &cubic, closely)?;
-        }
-        if error <= allowed {
-            return wide(cubic.homogeneous(), error, 10.0);
-        }
-        if self.how.arcs != Arcs::Class14 || error > HOPELESS * allowed {
-            return Some(attempt(None, error, 10.0));
-        }
-        // ... and then through all nine.
-        let [p, q, r, s, u] = peaks.quotient();
-        let octic = Newton::through(parameters, [p, a, q, b, r, c, s, d, u]);
-        let late = frame.remainder(&quintic, self.course.tangents(interval, LATE_PEAKS))?;
-        let mut error = late.largest_beyond(|t| octic.value(t));
-        if largest_gap(late.t) > LATE_APART && LATE_PEAK * error <= allowed {
-            let closely = (&LATE_PEAKS[..], LATE_APART);
-            error = self.largest_beyond(interval, &frame, &quintic, &octic, closely)?;
-        }
-        let error = LATE_PEAK * error;
-        if error > allowed {
-            return Some(attempt(None, error, 15.0));
-        }
-        let arc = frame.arc(&quintic, &octic.homogeneous(), end)?;
-        Some(attempt(Some(Fit::Wider(arc)), error, 15.0))
+        self.high_class(&base, &nodes, quotient)
     }
 
-    /// The largest error of an arc at shares of an interval, and in between where the normals turn much.
+    /// The remainder at shares of the interval.
+    #[inline(always)]
+    fn remainder<const K: usize>(&self, base: &Base<'_>, shares: [f64; K]) -> Option<Remainder<K>> {
+        let tangents = self.course.tangents(base.interval, shares);
+        base.frame.remainder(&base.quintic, tangents)
+    }
+
+    /// The remainder over `t^3 (1-t)^3` as nothing, or as a line through the inner nodes, which is class 7, if that suffices: value
+    /// and slope of the line, the error and its order.
+    #[inline]
+    fn low_class(
+        &self,
+        base: &Base<'_>,
+        nodes: &Remainder<4>,
+        [_, b, c, _]: [f64; 4],
+    ) -> Option<([f64; 2], f64, f64)> {
+        let slope = (c - b) / (nodes.t[2] - nodes.t[1]);
+        let through = [b - slope * nodes.t[1], slope];
+        for (line, order) in [([0.0; 2], 6.0), (through, 8.0)] {
+            let at = |t: f64| line[0] + line[1] * t;
+            let mut error = nodes.largest_beyond(at);
+            if PEAK * error <= base.allowed {
+                if SURE * error > base.allowed {
+                    let middle = self.remainder(base, MIDDLE)?;
+                    error = middle.largest_beyond(at).max(error);
+                }
+                return (PEAK * error <= base.allowed).then_some((line, PEAK * error, order));
+            }
+        }
+        None
+    }
+
+    /// The remainder over `t^3 (1-t)^3` as a cubic through all four nodes, or else as a polynomial through these and five more.
+    #[inline]
+    fn high_class(
+        &self,
+        base: &Base<'_>,
+        nodes: &Remainder<4>,
+        quotient: [f64; 4],
+    ) -> Option<Attempt> {
+        let cubic = Newton::through(nodes.t, quotient);
+        let peaks = self.remainder(base, PEAKS)?;
+        let mut error = PEAK * peaks.largest_beyond(|t| cubic.value(t));
+        let parameters = merged(nodes.t, peaks.t);
+        if error <= base.allowed && (base.over_knots() || largest_gap(parameters) > CLOSE_APART) {
+            let shares: &[f64] = if base.over_knots() { &CLOSE } else { &PEAKS };
+            error = PEAK * self.largest_beyond(base, &cubic, shares, CLOSE_APART)?;
+        }
+        if error <= base.allowed {
+            return base.class_9(cubic.homogeneous(), error, 10.0);
+        }
+        if self.how.arcs != Arcs::Class14 || error > HOPELESS * base.allowed {
+            return Some(base.attempt(None, error, 10.0));
+        }
+        let octic = Newton::through(parameters, merged(quotient, peaks.quotient()));
+        let late = self.remainder(base, LATE_PEAKS)?;
+        let mut error = LATE_PEAK * late.largest_beyond(|t| octic.value(t));
+        if error <= base.allowed && largest_gap(late.t) > LATE_APART {
+            error = LATE_PEAK * self.largest_beyond(base, &octic, &LATE_PEAKS, LATE_APART)?;
+        }
+        if error > base.allowed {
+            return Some(base.attempt(None, error, 15.0));
+        }
+        let factor = octic.homogeneous();
+        let arc = base.frame.arc(&base.quintic, &factor, &base.interval.end)?;
+        Some(base.attempt(Some(Fit::Wider(arc)), error, 15.0))
+    }
+
+    /// The largest error of an arc at shares of an interval, and in between where the parameters of normals are `apart`.
     fn largest_beyond<const K: usize>(
         &self,
-        interval: &Interval,
-        frame: &Frame,
-        quintic: &[f64; 6],
+        base: &Base<'_>,
         factor: &Newton<K>,
-        (shares, apart): (&[f64], f64),
+        shares: &[f64],
+        apart: f64,
     ) -> Option<f64> {
         largest_between(shares, apart, |share| {
-            let tangent = self.course.tangents(interval, [share]);
-            let Remainder { t, weight, rest } = frame.remainder(quintic, tangent)?;
+            let Remainder { t, weight, rest } = self.remainder(base, [share])?;
             Some((t[0], rest[0] - weight[0] * factor.value(t[0])))
         })
     }
+}
+
+/// What belongs to the nodes of class 9 and to the peaks between them, in the order of the curve.
+fn merged([b, d, f, h]: [f64; 4], [a, c, e, g, i]: [f64; 5]) -> [f64; 9] {
+    [a, b, c, d, e, f, g, h, i]
 }
 
 impl Frame {

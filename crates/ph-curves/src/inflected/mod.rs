@@ -211,10 +211,15 @@ impl InflectedArc {
     /// The parallel arc at signed distance `distance` along the normal; exact. Its start is the inflection's.
     #[must_use]
     pub fn offset(&self, distance: f64) -> Self {
-        Self {
-            distance: self.distance + distance,
-            ..*self
-        }
+        let mut moved = *self;
+        moved.shift(distance);
+        moved
+    }
+
+    /// Moves the arc along its normals.
+    #[inline]
+    pub(crate) fn shift(&mut self, distance: f64) {
+        self.distance += distance;
     }
 
     /// The part between two parameters `0 <= from < to <= 1`.
