@@ -58,6 +58,10 @@ impl Family {
             .filter(|&parameter| self.kind_at(parameter).is_ring())
         {
             match self.blend(parameter) {
+                // Where `a` and `c` nearly agree, rounding decides.
+                Ok(blend) if !blend.kind().is_ring() => {
+                    failure = Error::NoRing { kind: blend.kind() };
+                }
                 Ok(blend) => {
                     let clearance = self.clearance(&shape, parameter);
                     let merit = match preference {
