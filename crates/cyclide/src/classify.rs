@@ -46,7 +46,7 @@ pub enum Class {
         /// Number of lines along which the cones touch.
         double_lines: u8,
     },
-    /// One axis: four families of tori, three if the angles are equal.
+    /// One axis: four families of tori; three for cones of equal angles, two for two cylinders.
     IdenticalAxes,
     /// No cyclide blends these cones.
     NotBlendable(Obstacle),
@@ -172,17 +172,25 @@ impl Classification {
     ///
     /// # Errors
     ///
-    /// [`Error::NotBlendable`] if there is no family; [`Error::NotFinite`], [`Error::LengthOutOfRange`]. Families whose member there is the common sphere are left out.
+    /// [`Error::NotBlendable`] if there is no family; [`Error::NotFinite`], [`Error::LengthOutOfRange`]. Families that have no cyclide there are left
+    /// out; if none has, the error of the first, as [`Family::blend`]: [`Error::CommonSphere`] at the height of the only common sphere.
     pub fn blends_at_height(&self, height: f64) -> Result<Vec<Blend>, Error> {
         crate::frame::length("height", height)?;
         if self.families.is_empty() {
             return Err(Error::NotBlendable(self.class));
         }
-        Ok(self
-            .families
-            .iter()
-            .filter_map(|family| family.blend_at_height(height).ok())
-            .collect())
+        let mut blends = Vec::new();
+        let mut failure = None;
+        for family in &self.families {
+            match family.blend_at_height(height) {
+                Ok(blend) => blends.push(blend),
+                Err(error) => failure = failure.or(Some(error)),
+            }
+        }
+        match failure {
+            Some(error) if blends.is_empty() => Err(error),
+            _ => Ok(blends),
+        }
     }
 
     const fn without_families(class: Class) -> Self {
