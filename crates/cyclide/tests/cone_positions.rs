@@ -168,3 +168,20 @@ fn a_ring_blend_is_a_ring_also_between_flat_cones() {
         }
     }
 }
+
+/// Cylinders with parallel axes have families of one type, which need not be rings.
+#[test]
+fn parallel_cylinders_have_two_families_with_or_without_rings() {
+    let first = Cone::cylinder(DVec3::ZERO, DVec3::Z, 1.0).unwrap();
+    for (offset, radius, class, rings) in [
+        (0.0, 2.0, Class::IdenticalAxes, [false, true]),
+        (1.0, 1.0, Class::GeneralParallel, [false, false]),
+        (3.0, 1.0, Class::GeneralParallel, [true, false]),
+    ] {
+        let second = Cone::cylinder(DVec3::X * offset, DVec3::Z, radius).unwrap();
+        let found = classify(&first, &second);
+        assert_eq!(found.class(), class);
+        let has: Vec<bool> = found.families().iter().map(Family::has_rings).collect();
+        assert_eq!(has, rings, "{offset}");
+    }
+}
