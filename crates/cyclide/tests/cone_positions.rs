@@ -89,13 +89,16 @@ fn vertices_far_away_do_not_excuse_a_gap() {
 #[test]
 fn no_blend_is_handed_out_that_misses_a_given_cone() {
     let first = Cone::cylinder(DVec3::ZERO, DVec3::Z, 1.0).unwrap();
-    let second = Cone::cylinder(dvec3(5.0, 0.0, 0.0), dvec3(0.0, 8e-10, 1.0), 1.5).unwrap();
-    for family in classify(&first, &second).families() {
-        assert!(residual(family, 1.0, [&first, &second]).unwrap() < 1e-8);
-        for s in [1e3, 1e5, 1e7] {
-            match residual(family, s, [&first, &second]) {
-                Ok(residual) => assert!(residual < 1e-8, "{s}: {residual:e}"),
-                Err(error) => assert!(matches!(error, Error::NotTangent { .. }), "{error}"),
+    let axis = dvec3(0.0, 8e-10, 1.0);
+    for along in [0.0, 1e6] {
+        let second = Cone::cylinder(dvec3(5.0, 0.0, 0.0) + along * axis, axis, 1.5).unwrap();
+        for family in classify(&first, &second).families() {
+            assert!(residual(family, 1.0, [&first, &second]).unwrap() < 1e-8);
+            for s in [1e3, 1e5, 1e7] {
+                match residual(family, s, [&first, &second]) {
+                    Ok(residual) => assert!(residual < 1e-8, "{s}: {residual:e}"),
+                    Err(error) => assert!(matches!(error, Error::NotTangent { .. }), "{error}"),
+                }
             }
         }
     }
