@@ -137,7 +137,7 @@ fn tangent_cone(moving: MovingSphere) -> Option<Cone> {
 }
 
 /// The sphere or plane that contains two circles of one family of a cyclide (Shene, Lemma 6); its centre is where the axes of the
-/// circles meet. `None` if the circles lie on no common sphere.
+/// circles meet. `None` if the circles lie on no common sphere, as circles with skew axes never do.
 #[must_use]
 pub fn common_sphere(first: &CurvatureCircle, second: &CurvatureCircle) -> Option<Object> {
     let size = first
@@ -168,7 +168,10 @@ pub fn common_sphere(first: &CurvatureCircle, second: &CurvatureCircle) -> Optio
     let centre = first.centre + along * first.axis;
     let square = along * along + first.radius * first.radius;
     let other = centre.distance_squared(second.centre) + second.radius * second.radius;
-    agree(square, other)
+    // The axes must meet; a miss moves the second circle off the sphere by less, the larger the sphere.
+    let miss = offset.dot(cross).abs() / cross.length();
+    let meet = miss <= crate::tolerance::CLASS * size.max(square.sqrt());
+    (meet && agree(square, other))
         .then(|| Sphere::new(centre, square.sqrt()).ok().map(Object::Sphere))
         .flatten()
 }

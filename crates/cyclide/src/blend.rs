@@ -97,28 +97,37 @@ impl Blend {
         }
     }
 
-    /// The larger of the two G1 residuals: how far, relative to the contact sphere and its distance from the vertex, each contact sphere and the
-    /// tangent of its line are from the conic of the surface and its tangent. Zero exactly if the tangent planes agree along both circles.
+    /// The larger of the two G1 residuals against the cones as given: how far, relative to the contact circle, the tangent sphere of the surface is
+    /// from those inscribed in the cone, and by what angle (radians) the tangent planes differ. Zero exactly if they agree along both circles.
+    /// A contact circle that has shrunk to a singular point has no size; the radii of its surface then stand in, and
+    /// [`Blend::is_usable`] is false.
     #[must_use]
     pub const fn residual(&self) -> f64 {
         self.residual
     }
 
-    /// Whether a tube between the two circles can be used: no singular point of the surface lies on a contact circle.
+    /// Whether a tube between the two circles can be used: no singular point of the surface lies on a contact circle, and neither circle is one.
     #[must_use]
     pub fn is_usable(&self) -> bool {
-        match (self.contact_family, self.kind()) {
-            (ContactFamily::Theta, kind) => !matches!(
-                kind,
-                Kind::OneSingularitySpindle
-                    | Kind::TwoSingularitySpindle
-                    | Kind::HornTorus
-                    | Kind::SpindleTorus
-            ),
-            (ContactFamily::Psi, kind) => !matches!(kind, Kind::SinglyHorned | Kind::DoublyHorned),
-            (ContactFamily::U, kind) => kind == Kind::ParabolicRing,
-            (ContactFamily::V, _) => true,
-        }
+        let collapsed = self
+            .contacts
+            .iter()
+            .any(|contact| is_collapsed(&self.surface, self.contact_family, contact.parameter));
+        !collapsed
+            && match (self.contact_family, self.kind()) {
+                (ContactFamily::Theta, kind) => !matches!(
+                    kind,
+                    Kind::OneSingularitySpindle
+                        | Kind::TwoSingularitySpindle
+                        | Kind::HornTorus
+                        | Kind::SpindleTorus
+                ),
+                (ContactFamily::Psi, kind) => {
+                    !matches!(kind, Kind::SinglyHorned | Kind::DoublyHorned)
+                }
+                (ContactFamily::U, kind) => kind == Kind::ParabolicRing,
+                (ContactFamily::V, _) => true,
+            }
     }
 
     /// Whether both contact circles lie on the same nappes as the common inscribed sphere, so that only one nappe of each cone
@@ -171,11 +180,15 @@ impl Blend {
                     self.surface.point(first, second),
                     self.surface.normal(first, second),
                 );
-                let offset = point - line.point;
-                let outward = (offset - offset.dot(line.axis) * line.axis).normalize_or_zero()
-                    * radius.signum();
-                let cone_normal = line.cos * outward - line.sin * line.axis;
-                let distance = (offset.dot(cone_normal) - line.radius).abs() / radius.abs();
+                // From the foot of the contact sphere: the vertex can be far away.
+                let inscribed = line.at(line.foot(contact.sphere.centre));
+                let offset = point - inscribed.centre;
+                let height = offset.dot(line.axis);
+                let across = offset - height * line.axis;
+                let cone_normal =
+                    line.cos * radius.signum() * across.normalize_or_zero() - line.sin * line.axis;
+                let reach = radius.signum() * across.length() * line.cos - height * line.sin;
+                let distance = (reach - inscribed.radius).abs() / radius.abs();
                 let angle = cone_normal
                     .cross(normal)
                     .length()
@@ -227,23 +240,29 @@ pub(crate) fn member(family: &Family, parameter: f64) -> Result<Blend, Error> {
             )?
         }
     };
-    let mut residual = 0.0_f64;
-    let contact = |sphere: Cycle, line: &SphereLine, residual: &mut f64| {
+    let contact = |sphere: Cycle, line: &SphereLine| {
         let parameter = contact_parameter(&surface.dupin, contact_family, sphere, surface.reversed);
-        let moving = moving_sphere(&surface.dupin, contact_family, parameter);
-        *residual = residual.max(tangency_residual(moving, sphere, line));
-        Contact {
+        let residual = line_residual(&surface.dupin, contact_family, parameter, line);
+        let contact = Contact {
             circle: line.contact_circle(sphere),
             sphere,
             parameter,
-        }
+        };
+        (contact, residual)
     };
     let [first, second] = &family.lines;
-    let contacts = [
-        contact(spheres[0], first, &mut residual),
-        contact(spheres[1], second, &mut residual),
-    ];
-    if residual.is_nan() || residual > tolerance::BLEND {
+    let (first, first_residual) = contact(spheres[0], first);
+    let (mut second, second_residual) = contact(spheres[1], second);
+    if family.second_turned {
+        second.circle.axis = -second.circle.axis;
+    }
+    let contacts = [first, second];
+    let residual = if first_residual.is_nan() || second_residual.is_nan() {
+        f64::INFINITY
+    } else {
+        first_residual.max(second_residual)
+    };
+    if residual > tolerance::BLEND {
         return Err(Error::NotTangent {
             residual,
             allowed: tolerance::BLEND,
@@ -434,26 +453,77 @@ fn moving_sphere(surface: &Dupin, contact_family: ContactFamily, parameter: f64)
     }
 }
 
-/// G1 along a contact circle is the same as two conditions in R^{3,1}: the contact sphere is on the conic of the surface, and the
-/// conic's tangent there is the line of spheres of the cone. Up to one global orientation.
-fn tangency_residual(moving: MovingSphere, sphere: Cycle, line: &SphereLine) -> f64 {
-    let size = sphere.radius.abs().max(sphere.centre.distance(line.point));
-    let position = moving.sphere.centre.distance(sphere.centre) / size;
-    let speed = moving.velocity.centre.length();
-    let direction = moving.velocity.centre.cross(line.axis).length() / speed;
-    let slope = moving.velocity.centre.dot(line.axis) * line.sin;
+/// G1 along a contact circle is the same as two conditions in R^{3,1}: the tangent sphere of the surface is on the line of spheres of
+/// the cone, and it moves along that line. Up to one global orientation.
+fn line_residual(
+    surface: &Dupin,
+    contact_family: ContactFamily,
+    parameter: f64,
+    line: &SphereLine,
+) -> f64 {
+    let MovingSphere { sphere, velocity } = moving_sphere(surface, contact_family, parameter);
+    let inscribed = line.at(line.foot(sphere.centre));
+    let size = if is_collapsed(surface, contact_family, parameter) {
+        surface_size(surface)
+    } else {
+        inscribed.radius.abs() * line.cos
+    };
+    let position = sphere.centre.distance(inscribed.centre) / size;
+    let speed = velocity.centre.length();
+    let direction = velocity.centre.cross(line.axis).length() / speed;
+    let slope = velocity.centre.dot(line.axis) * line.sin;
     [1.0, -1.0]
         .map(|sign: f64| {
-            let radius = (moving.sphere.radius - sign * sphere.radius).abs() / size;
-            let rate = (moving.velocity.radius - sign * slope).abs() / norm(moving.velocity).sqrt();
-            position.max(radius).max(direction).max(rate)
+            let radius = (sphere.radius - sign * inscribed.radius).abs() / size;
+            // The sine of the half angle changes by its cosine times the angle.
+            let angle = (velocity.radius - sign * slope).abs() / (speed * line.cos);
+            let parts = [position, radius, direction, angle];
+            if parts.iter().any(|part| part.is_nan()) {
+                f64::INFINITY
+            } else {
+                parts.into_iter().fold(0.0, f64::max)
+            }
         })
         .into_iter()
         .fold(f64::INFINITY, f64::min)
 }
 
+/// The larger of the radii from which the type of a surface is decided.
+fn surface_size(surface: &Dupin) -> f64 {
+    match surface {
+        Dupin::Quartic(surface) => surface.a().max(surface.mu()),
+        Dupin::Parabolic(surface) => surface.f().max(surface.k().abs()),
+    }
+}
+
+/// Whether the circle with this parameter is one of the singular points that the type of the surface, decided for numbers that were computed, has.
+fn is_collapsed(surface: &Dupin, contact_family: ContactFamily, parameter: f64) -> bool {
+    // The radius of the tangent sphere; for psi times cos psi, for which it is finite.
+    let radius = match (surface, contact_family) {
+        (Dupin::Quartic(surface), ContactFamily::Theta) => {
+            surface.mu() - surface.c() * parameter.cos()
+        }
+        (Dupin::Quartic(surface), _) => surface.mu() * parameter.cos() - surface.a(),
+        (Dupin::Parabolic(surface), ContactFamily::U) => surface.u_radius(parameter),
+        (Dupin::Parabolic(surface), _) => surface.v_radius(parameter),
+    };
+    let kind = surface.kind_within(tolerance::RECOVERED_KIND);
+    let can_collapse = match contact_family {
+        ContactFamily::Theta => matches!(kind, Kind::SinglyHorned | Kind::DoublyHorned),
+        ContactFamily::Psi => matches!(
+            kind,
+            Kind::OneSingularitySpindle
+                | Kind::TwoSingularitySpindle
+                | Kind::HornTorus
+                | Kind::SpindleTorus
+        ),
+        ContactFamily::U | ContactFamily::V => kind != Kind::ParabolicRing,
+    };
+    can_collapse && radius.abs() <= tolerance::RECOVERED_KIND * surface_size(surface)
+}
+
 /// The G1 residual of a surface along a circle `parameter` of one of its families against a given cone, as [`Blend::residual`].
-/// For checking blends that were made elsewhere.
+/// For checking blends that were made elsewhere. Infinite where it is not defined.
 #[must_use]
 pub fn contact_residual(
     surface: &Dupin,
@@ -461,7 +531,5 @@ pub fn contact_residual(
     parameter: f64,
     cone: &Cone,
 ) -> f64 {
-    let line = cone.spheres();
-    let moving = moving_sphere(surface, contact_family, parameter);
-    tangency_residual(moving, line.at(line.foot(moving.sphere.centre)), &line)
+    line_residual(surface, contact_family, parameter, &cone.spheres())
 }

@@ -46,7 +46,7 @@ pub enum Class {
         /// Number of lines along which the cones touch.
         double_lines: u8,
     },
-    /// One axis: four families of tori, three if the angles are equal.
+    /// One axis: four families of tori; three for cones of equal angles, two for two cylinders.
     IdenticalAxes,
     /// No cyclide blends these cones.
     NotBlendable(Obstacle),
@@ -172,17 +172,25 @@ impl Classification {
     ///
     /// # Errors
     ///
-    /// [`Error::NotBlendable`] if there is no family; [`Error::NotFinite`], [`Error::LengthOutOfRange`]. Families whose member there is the common sphere are left out.
+    /// [`Error::NotBlendable`] if there is no family; [`Error::NotFinite`], [`Error::LengthOutOfRange`]. Families that have no cyclide there are left
+    /// out; if none has, the error of the first, as [`Family::blend`]: [`Error::CommonSphere`] at the height of the only common sphere.
     pub fn blends_at_height(&self, height: f64) -> Result<Vec<Blend>, Error> {
         crate::frame::length("height", height)?;
         if self.families.is_empty() {
             return Err(Error::NotBlendable(self.class));
         }
-        Ok(self
-            .families
-            .iter()
-            .filter_map(|family| family.blend_at_height(height).ok())
-            .collect())
+        let mut blends = Vec::new();
+        let mut failure = None;
+        for family in &self.families {
+            match family.blend_at_height(height) {
+                Ok(blend) => blends.push(blend),
+                Err(error) => failure = failure.or(Some(error)),
+            }
+        }
+        match failure {
+            Some(error) if blends.is_empty() => Err(error),
+            _ => Ok(blends),
+        }
     }
 
     const fn without_families(class: Class) -> Self {
@@ -201,7 +209,9 @@ impl Classification {
 /// family exactly if one of its two conics touches both lines. So the lines must lie in a plane: they meet (in the common
 /// inscribed sphere) or they are parallel (equal angles). Each choice of orientation of the second cone is tried.
 ///
-/// Lengths are compared relative to the distance of the two reference points (vertices) and the radii.
+/// Lengths are compared relative to the cones where they are near each other: to the radii of the spheres inscribed at the feet of the common
+/// perpendicular of the axes (for parallel axes, to the distance of the two lines of spheres), never to how far away a vertex or the point given on
+/// an axis is. Only rounding is allowed for in proportion to that distance.
 #[must_use]
 pub fn classify(first: &Cone, second: &Cone) -> Classification {
     let pair = Pair::new(first, second);
@@ -212,49 +222,58 @@ pub fn classify(first: &Cone, second: &Cone) -> Classification {
     }
 }
 
-/// Two lines of spheres with the yardstick for lengths.
+/// Two lines of spheres.
 struct Pair {
     first: SphereLine,
     second: SphereLine,
     /// From the first reference point to the second; zero if the two are one point up to rounding.
     offset: DVec3,
-    size: f64,
+    /// What the coordinates of the reference points may be off by.
+    rounding: f64,
 }
 
 impl Pair {
     fn new(first: &Cone, second: &Cone) -> Self {
         let (first, second) = (first.spheres(), second.spheres());
         let offset = second.point - first.point;
-        let rounding = tolerance::SAME_POINT * first.point.length().max(second.point.length());
-        let offset = if offset.length() <= rounding {
+        let farthest = first.point.length().max(second.point.length());
+        let offset = if offset.length() <= tolerance::SAME_POINT * farthest {
             DVec3::ZERO
         } else {
             offset
         };
-        let size = offset.length().max(first.radius).max(second.radius);
         Self {
             first,
             second,
             offset,
-            size: if size > 0.0 { size } else { 1.0 },
+            rounding: tolerance::ROUNDING * (farthest + offset.length()),
         }
     }
 
     fn crossing_axes(&self) -> Classification {
         let (first, second) = (self.first, self.second);
-        let near = tolerance::CLASS * self.size;
         let cross = first.axis.cross(second.axis);
         let plane_normal = cross.normalize();
+        let along = |axis: DVec3| self.offset.cross(axis).dot(cross) / cross.length_squared();
+        let (on_first, on_second) = (first.at(along(second.axis)), second.at(along(first.axis)));
+        let radii = [on_first.radius, on_second.radius];
+        let larger = radii[0].abs().max(radii[1].abs());
+        let reach = along(first.axis).abs().max(along(second.axis).abs());
+        let rounding = self.rounding + tolerance::ROUNDING * reach;
+        // The vertices of two cones can be nearer than a common sphere, never the point that was given on the axis of a cylinder.
+        let local = if first.sin == 0.0 || second.sin == 0.0 {
+            larger
+        } else {
+            larger.min(self.offset.length())
+        };
         let distance = self.offset.dot(plane_normal).abs();
-        if distance > near {
+        if distance > tolerance::CLASS * local + rounding {
             return Classification::without_families(Class::NotBlendable(Obstacle::SkewAxes {
                 distance,
             }));
         }
-        let along = |axis: DVec3| self.offset.cross(axis).dot(cross) / cross.length_squared();
-        let (on_first, on_second) = (first.at(along(second.axis)), second.at(along(first.axis)));
-        let radii = [on_first.radius, on_second.radius];
-        let near = tolerance::CLASS * self.size.max(radii[0].abs());
+        let size = or_one(local);
+        let near = tolerance::CLASS * larger + rounding;
         let orientations = [1_i8, -1]
             .into_iter()
             .filter(|&o| (radii[0] - f64::from(o) * radii[1]).abs() <= near);
@@ -283,6 +302,7 @@ impl Pair {
             let family = |pairing: i8, conic| Family {
                 lines,
                 orientation,
+                second_turned: false,
                 conic,
                 structure: Structure::Meet {
                     sphere,
@@ -290,7 +310,7 @@ impl Pair {
                     product,
                 },
                 plane_normal,
-                size: self.size,
+                size,
                 one_axis: false,
             };
             if (product.abs() - 1.0).abs() <= tolerance::CLASS {
@@ -334,14 +354,23 @@ impl Pair {
     fn parallel_axes(&self, first_cone: &Cone, second_cone: &Cone) -> Classification {
         let first = self.first;
         let axis = first.axis;
-        let second = if axis.dot(self.second.axis) < 0.0 {
+        let second_turned = axis.dot(self.second.axis) < 0.0;
+        let mut second = if second_turned {
             self.second.with_opposite_axis()
         } else {
             self.second
         };
-        let near = tolerance::CLASS * self.size;
-        let ahead = self.offset.dot(axis);
-        let sideways = self.offset - ahead * axis;
+        let mut offset = self.offset;
+        if second.sin == 0.0 {
+            // Any point of the axis of a cylinder will do: the one beside the first reference point.
+            let foot = second.foot(first.point);
+            second.point += foot * second.axis;
+            offset = second.point - first.point;
+        }
+        let ahead = offset.dot(axis);
+        let sideways = offset - ahead * axis;
+        let size = parallel_size(&first, &second, ahead, sideways.length());
+        let near = tolerance::CLASS * size + self.rounding;
         let one_axis = sideways.length() <= near;
         let plane_normal = if one_axis {
             axis.any_orthonormal_vector()
@@ -362,14 +391,18 @@ impl Pair {
             let family = |structure| Family {
                 lines,
                 orientation,
+                second_turned,
                 conic: Conic::Hyperbola,
                 structure,
                 plane_normal,
-                size: self.size,
+                size,
                 one_axis,
             };
             let radius_step = second.radius - first.radius;
-            if (first.sin - second.sin).abs() <= tolerance::CLASS {
+            // The sines of nearly flat cones say little of their angles.
+            let is_equal_angle = (first.sin - second.sin).abs() <= tolerance::CLASS
+                && (first.cos - second.cos).abs() <= tolerance::CLASS;
+            if is_equal_angle {
                 // The part of the step between the lines that is orthogonal to both: sideways, and along the time-like
                 // unit vector (sin alpha d ; 1) / cos alpha.
                 let apart = sideways.length();
@@ -427,6 +460,31 @@ impl Pair {
             families,
         }
     }
+}
+
+/// The yardstick for two lines of spheres with parallel axes: their distance if they are parallel, sideways and along the time-like unit vector;
+/// the radius of the smaller sphere where they would meet if they had one axis.
+fn parallel_size(first: &SphereLine, second: &SphereLine, ahead: f64, sideways: f64) -> f64 {
+    let meeting = [1.0, -1.0].map(|sign| {
+        let (sin, radius) = (sign * second.sin, sign * second.radius);
+        let numerator = first.sin * radius - sin * first.radius - ahead * first.sin * sin;
+        (numerator / (first.sin - sin)).abs()
+    });
+    let smaller = meeting
+        .into_iter()
+        .filter(|radius| radius.is_finite())
+        .fold(f64::INFINITY, f64::min);
+    let radius = if smaller.is_finite() {
+        smaller
+    } else {
+        first.radius.max(second.radius)
+    };
+    or_one(radius.max(sideways))
+}
+
+/// A length to compare with, or 1 where the cones share their vertex and no length is given.
+fn or_one(size: f64) -> f64 {
+    if size > 0.0 { size } else { 1.0 }
 }
 
 /// The line of tangency of two oriented cones whose directions have product `-pairing`: the sum of the directions is then

@@ -221,8 +221,10 @@ pub enum Error {
         /// Relative mismatch of the second circle.
         mismatch: f64,
     },
-    /// No cone between two cones allows a blend of two cyclides.
-    #[error("no cone between the two allows a blend of two cyclides along these circles")]
+    /// No cone between two cones was found that allows a blend of two cyclides; [`crate::double_blends`] says which are tried.
+    #[error(
+        "no cone was found between the two that allows a blend of two cyclides along these circles"
+    )]
     NoMiddleCone,
     /// An operation on the space of spheres failed.
     #[error(transparent)]

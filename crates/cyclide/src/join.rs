@@ -5,7 +5,7 @@
 //! in it asks for coplanar axes, so skew cones are joined as well.
 
 use crate::frame::finite;
-use crate::{Blend, Cone, CurvatureCircle, Error, SphereLine, Tube, classify, tolerance};
+use crate::{Blend, Cone, CurvatureCircle, Error, Tube, classify, tolerance};
 use lorentz::Cycle;
 
 /// What joins two circles on two cones.
@@ -48,15 +48,16 @@ impl DoubleBlend {
 }
 
 /// The blend that touches both cones along the given circles: one cyclide where one exists, otherwise the smoothest pair of cyclides with a middle
-/// cone.
+/// cone among the [`double_blends`]: two rings before others, then the shortest tubes in the parameters of their surfaces.
 ///
 /// # Errors
 ///
-/// [`Error::NotACircleOfTheCone`]; [`Error::NoMiddleCone`].
+/// [`Error::NotACircleOfTheCone`]; [`Error::CommonSphere`] if one inscribed sphere touches the cones along both circles;
+/// [`Error::NoMiddleCone`].
 pub fn join(cones: [&Cone; 2], circles: [&CurvatureCircle; 2]) -> Result<Joined, Error> {
     match blend_through(cones, circles) {
         Ok(blend) => Ok(Joined::Once(Box::new(blend))),
-        Err(error @ Error::NotACircleOfTheCone { .. }) => Err(error),
+        Err(error @ (Error::NotACircleOfTheCone { .. } | Error::CommonSphere { .. })) => Err(error),
         Err(_) => {
             let blends = double_blends(cones, circles)?;
             let best = blends
@@ -72,42 +73,81 @@ pub fn join(cones: [&Cone; 2], circles: [&CurvatureCircle; 2]) -> Result<Joined,
 ///
 /// # Errors
 ///
-/// [`Error::NotACircleOfTheCone`]; [`Error::NotBlendable`]; [`Error::NotJoined`] with the mismatch of the nearest member of the families.
+/// [`Error::NotACircleOfTheCone`]; [`Error::NotBlendable`]; [`Error::CommonSphere`] if one inscribed sphere touches the cones along both
+/// circles; [`Error::NotJoined`] with the mismatch of the nearest member of the families; as [`crate::Family::blend`] for the member that
+/// would join them.
 pub fn blend_through(cones: [&Cone; 2], circles: [&CurvatureCircle; 2]) -> Result<Blend, Error> {
     let heights = heights(cones, circles)?;
     let found = classify(cones[0], cones[1]);
+    if found.families().is_empty() {
+        return Err(Error::NotBlendable(found.class()));
+    }
+    let size = circles[1]
+        .radius
+        .max(circles[0].radius)
+        .max(circles[0].centre.distance(circles[1].centre));
     let mut mismatch = f64::INFINITY;
-    for blend in found.blends_at_height(heights[0])? {
-        let [_, contact] = blend.contacts();
-        let size = circles[1]
-            .radius
-            .max(circles[0].radius)
-            .max(circles[0].centre.distance(circles[1].centre));
-        let miss = contact
-            .circle
+    let mut failure = None;
+    for family in found.families() {
+        let parameter = family.parameter_at_height(heights[0]);
+        let [_, sphere] = family.contact_spheres(parameter);
+        let touched = family.lines()[1].contact_circle(sphere);
+        let miss = touched
             .centre
             .distance(circles[1].centre)
-            .max((contact.circle.radius - circles[1].radius).abs())
+            .max((touched.radius - circles[1].radius).abs())
             / size;
-        if miss <= tolerance::BLEND {
-            return Ok(blend);
-        }
         mismatch = mismatch.min(miss);
+        if miss <= tolerance::BLEND {
+            match family.blend(parameter) {
+                Ok(blend) => return Ok(blend),
+                Err(error) => failure = failure.or(Some(error)),
+            }
+        }
     }
-    Err(Error::NotJoined { mismatch })
+    Err(failure.unwrap_or(Error::NotJoined { mismatch }))
 }
 
-/// All joins of two circles by two cyclides with equal Lorentz lengths on both sides (the balanced biarcs), for every choice of orientations, that can
-/// be used: no singular point on a contact circle, and no fold at the middle.
+/// Joins of two circles by two cyclides, for every choice of orientations, that can be used: no singular point on a contact circle or inside a tube,
+/// no passage through infinity, and no fold at the middle.
+///
+/// The joins form a one-parameter set, the biarcs of R^{3,1}, told apart by the ratio of the signed Lorentz lengths from the contact
+/// spheres to the corners of the biarc's polygon. All with equal lengths (the balanced biarcs) are returned; if none of those can be
+/// used, all with the first of the ratios `2^(k/8)`, `k = 1` to 80, for which one can, each together with its inverse and both signs: so
+/// exchanging the cones gives the same joins. A join that exists for none of these ratios is not found.
 ///
 /// # Errors
 ///
-/// [`Error::NotACircleOfTheCone`]; [`Error::NoMiddleCone`] if there is none.
+/// [`Error::NotACircleOfTheCone`]; [`Error::NoMiddleCone`] if none was found.
 pub fn double_blends(
     cones: [&Cone; 2],
     circles: [&CurvatureCircle; 2],
 ) -> Result<Vec<DoubleBlend>, Error> {
     let heights = heights(cones, circles)?;
+    for step in 0..=LARGEST_STEP {
+        let ratio = (0.125 * f64::from(step)).exp2();
+        let ratios: &[f64] = if step == 0 {
+            // Minus one would leave no distance between the corners.
+            &[1.0]
+        } else {
+            &[ratio, 1.0 / ratio, -ratio, -1.0 / ratio]
+        };
+        let found: Vec<DoubleBlend> = ratios
+            .iter()
+            .flat_map(|&ratio| joins_of_ratio(cones, heights, ratio))
+            .collect();
+        if !found.is_empty() {
+            return Ok(found);
+        }
+    }
+    Err(Error::NoMiddleCone)
+}
+
+/// The ratio of the two lengths of a join goes up to `2^(k/8)` with this `k`, a thousand: beyond, one of the cyclides hardly bends.
+const LARGEST_STEP: u32 = 80;
+
+/// The joins whose second length is `ratio` times the first.
+fn joins_of_ratio(cones: [&Cone; 2], heights: [f64; 2], ratio: f64) -> Vec<DoubleBlend> {
     let first = cones[0].spheres();
     let start = first.at(first.sphere_touching_at(heights[0]));
     let mut found = Vec::new();
@@ -119,22 +159,14 @@ pub fn double_blends(
         };
         let end = second.at(second.sphere_touching_at(heights[1]));
         for sign in [1.0, -1.0] {
-            for length in balanced_lengths(start, first.direction(), end, second.direction() * sign)
-            {
-                found.extend(through_middle(
-                    cones,
-                    [start, end],
-                    [&first, &second],
-                    [length, -sign * length],
-                ));
+            let (u, v) = (first.direction(), second.direction() * sign);
+            for length in lengths_of_ratio(start, u, end, v, ratio) {
+                let corners = [start + u * length, end - v * (ratio * length)];
+                found.extend(through_middle(cones, [start, end], corners, ratio));
             }
         }
     }
-    if found.is_empty() {
-        Err(Error::NoMiddleCone)
-    } else {
-        Ok(found)
-    }
+    found
 }
 
 /// Heights of the circles on their cones.
@@ -159,18 +191,18 @@ fn heights(cones: [&Cone; 2], circles: [&CurvatureCircle; 2]) -> Result<[f64; 2]
     Ok([height(cones[0], circles[0])?, height(cones[1], circles[1])?])
 }
 
-/// The lengths `l` with `<D, D> = 2 l <D, u + v> + 2 l² (1 - <u, v>)` for `D` from start to end: the corners `start + l u` and `end - l v` of the
-/// biarc's polygon are then `2 l` apart.
-fn balanced_lengths(start: Cycle, u: Cycle, end: Cycle, v: Cycle) -> Vec<f64> {
+/// The lengths `l` with `<D, D> = 2 l <D, u + q v> + 2 q l² (1 - <u, v>)` for `D` from start to end and the ratio `q`: the corners `start + l u`
+/// and `end - q l v` of the biarc's polygon are then `l + q l` apart.
+fn lengths_of_ratio(start: Cycle, u: Cycle, end: Cycle, v: Cycle, ratio: f64) -> Vec<f64> {
     let step = end - start;
     // quadratic l² + 2 half l - constant = 0
     let (quadratic, half, constant) = (
-        2.0 * (1.0 - u.product(v)),
-        step.product(u + v),
+        2.0 * ratio * (1.0 - u.product(v)),
+        step.product(u + v * ratio),
         step.square(),
     );
     let scale = step.centre.length_squared() + step.radius * step.radius;
-    if quadratic.abs() <= tolerance::CLASS {
+    if quadratic.abs() <= tolerance::CLASS * ratio.abs() {
         let length = constant / (2.0 * half);
         return if length.is_finite() && length.abs() <= scale.sqrt() / tolerance::CLASS {
             vec![length]
@@ -190,19 +222,16 @@ fn balanced_lengths(start: Cycle, u: Cycle, end: Cycle, v: Cycle) -> Vec<f64> {
         .collect()
 }
 
-/// The pair of blends with the given signed lengths along the two lines, if it can be used.
+/// The pair of blends through the given corners on the two lines, if it can be used. Their joint divides the line from corner to corner
+/// as 1 to `ratio`.
 fn through_middle(
     cones: [&Cone; 2],
     [start, end]: [Cycle; 2],
-    [first, second]: [&SphereLine; 2],
-    lengths: [f64; 2],
+    corners: [Cycle; 2],
+    ratio: f64,
 ) -> Option<DoubleBlend> {
-    let corners = [
-        start + first.direction() * lengths[0],
-        end + second.direction() * lengths[1],
-    ];
     let middle = Cone::through_spheres(corners[0], corners[1])?;
-    let joint = (corners[0] + corners[1]) * 0.5;
+    let joint = corners[0] + (corners[1] - corners[0]) * (1.0 / (1.0 + ratio));
     let touching =
         |cone: &Cone, sphere: Cycle, other: &Cone, other_sphere: Cycle| -> Option<Blend> {
             let circle = |cone: &Cone, sphere: Cycle| {

@@ -102,7 +102,7 @@
 //! Where the code departs from them: a surface with `mu = a` is singular and counts as a spindle, not as a ring; a double sphere is `a = c = 0`;
 //! Algorithm 1 asks for coaxial circles, not only parallel planes, and reads `a` and `mu` off directly; `w11` comes from the affine coordinates of
 //! `P11` in a corner plane, because the printed bisector condition is empty for every torus; opposite edges may have opposite signs on patches of nearly
-//! half a turn; and a family need not contain a ring if the cones share their vertex.
+//! half a turn; and a family need not contain a ring if the cones share their vertex or are cylinders with parallel axes.
 //!
 //! # Features
 //!

@@ -58,6 +58,10 @@ impl Family {
             .filter(|&parameter| self.kind_at(parameter).is_ring())
         {
             match self.blend(parameter) {
+                // Where `a` and `c` nearly agree, rounding decides.
+                Ok(blend) if !blend.kind().is_ring() => {
+                    failure = Error::NoRing { kind: blend.kind() };
+                }
                 Ok(blend) => {
                     let clearance = self.clearance(&shape, parameter);
                     let merit = match preference {
@@ -126,7 +130,8 @@ impl Family {
         }
     }
 
-    /// Whether the family contains ring cyclides. It does in every class but that of a common vertex, where it depends on the angles.
+    /// Whether the family contains ring cyclides. It does, unless the cones share their vertex or are cylinders with parallel
+    /// axes (or one axis): then all members are of one type, which depends on the angles, or on radii and distance.
     #[must_use]
     pub fn has_rings(&self) -> bool {
         self.intervals()

@@ -34,6 +34,9 @@ pub const CLASS: f64 = 1e-9;
 /// Vertices nearer than this share of their distance from the origin are one vertex: the rounding of a moved model.
 pub const SAME_POINT: f64 = 1e-12;
 
+/// What a coordinate may be off by, as a share of the distance from the origin and of the lengths that were added to it: four roundings.
+pub const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// No blend is returned whose algebraic G1 residual exceeds this.
 pub const BLEND: f64 = 1e-8;
 

@@ -1,6 +1,6 @@
 //! The two tubes between the contact circles of a blend.
 
-use crate::{Blend, ContactFamily, CyclidePatch, Dupin, Error};
+use crate::{Blend, ContactFamily, CyclidePatch, Dupin, Error, Kind, tolerance};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -120,24 +120,38 @@ impl Tube {
         self.surface.as_parabolic().is_some() && (self.ends[0] < self.ends[1]) != self.growing
     }
 
-    /// Whether no singular point lies inside. Always so on a ring; tubes of other surfaces can be smooth as well.
+    /// Whether no singular point lies inside. Always so on a ring; tubes of other surfaces can be smooth as well. The type is decided for
+    /// numbers that were computed, as by [`Blend::kind`].
     #[must_use]
     pub fn is_smooth(&self) -> bool {
-        let collapsed: Vec<f64> = match (&self.surface, self.contact_family) {
-            (Dupin::Quartic(surface), ContactFamily::Theta) if surface.mu() <= surface.c() => {
-                let theta = (surface.mu() / surface.c()).acos();
-                vec![theta, -theta]
+        let kind = self.surface.kind_within(tolerance::RECOVERED_KIND);
+        // Where the two singular points are one, rounding may leave the cosine above 1.
+        let collapsed = match (&self.surface, self.contact_family) {
+            (Dupin::Quartic(surface), ContactFamily::Theta)
+                if matches!(kind, Kind::SinglyHorned | Kind::DoublyHorned) =>
+            {
+                Some((surface.mu() / surface.c()).min(1.0).acos())
             }
-            (Dupin::Quartic(surface), ContactFamily::Psi) if surface.a() <= surface.mu() => {
-                let psi = (surface.a() / surface.mu()).acos();
-                vec![psi, -psi]
+            (Dupin::Quartic(surface), ContactFamily::Psi)
+                if matches!(
+                    kind,
+                    Kind::OneSingularitySpindle
+                        | Kind::TwoSingularitySpindle
+                        | Kind::HornTorus
+                        | Kind::SpindleTorus
+                ) =>
+            {
+                Some((surface.a() / surface.mu()).min(1.0).acos())
             }
-            (Dupin::Parabolic(surface), ContactFamily::V) if surface.k() >= surface.f() / 2.0 => {
-                let v = (surface.k() / surface.f() - 0.5).sqrt();
-                vec![v, -v]
+            (Dupin::Parabolic(surface), ContactFamily::V) if kind != Kind::ParabolicRing => {
+                Some((surface.k() / surface.f() - 0.5).max(0.0).sqrt())
             }
-            _ => Vec::new(),
+            _ => None,
         };
+        let collapsed: Vec<f64> = collapsed
+            .into_iter()
+            .flat_map(|parameter| [parameter, -parameter])
+            .collect();
         let turning = self.surface.as_quartic().is_some();
         let inside = |[from, to]: [f64; 2], parameter: f64| {
             let (low, high) = (from.min(to), from.max(to));

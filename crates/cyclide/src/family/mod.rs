@@ -52,6 +52,8 @@ pub(crate) enum Structure {
 pub struct Family {
     pub(crate) lines: [SphereLine; 2],
     pub(crate) orientation: i8,
+    /// Whether the axis of the second line is opposite to that of the cone as given, so that parallel axes have one direction.
+    pub(crate) second_turned: bool,
     pub(crate) conic: Conic,
     pub(crate) structure: Structure,
     pub(crate) plane_normal: DVec3,
