@@ -76,12 +76,8 @@ impl Parabolic {
     }
 
     /// All lengths multiplied by a positive factor, in the given frame.
-    pub(crate) fn scaled_in(self, factor: f64, frame: Frame) -> Self {
-        Self {
-            f: self.f * factor,
-            k: self.k * factor,
-            frame,
-        }
+    pub(crate) fn scaled_in(self, factor: f64, frame: Frame) -> Result<Self, Error> {
+        Self::new(self.f * factor, self.k * factor, frame)
     }
 
     /// The same point set with `k >= 0`. For `k < 0` the symmetry `(x, y, z, k) -> (-x, z, y, -k)` turns the frame,

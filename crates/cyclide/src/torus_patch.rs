@@ -69,7 +69,7 @@ pub fn convert_torus(
             allowed: tolerance::REBUILT_NET,
         });
     }
-    Ok(scaled.in_world(found))
+    scaled.in_world(found)
 }
 
 /// What the algorithm reads from the edges of a net whose rows 0 and 2 may be parallel circles.

@@ -402,3 +402,98 @@ fn hostile_nets_are_refused() {
         assert!(ring.positive_patches(span, [0.0, 1.0], 0.05).is_err());
     }
 }
+
+/// The weights of nearly a full turn gather almost all of it in a small part of the net.
+#[test]
+fn patches_of_nearly_a_full_turn_come_back() {
+    let mut random = Random(31);
+    for turn in [6.05, 6.1, 6.15, 6.2, 6.28] {
+        let (mut worst, mut failures) = (0.0_f64, 0);
+        for index in 0..400 {
+            let scale = 10_f64.powf(random.between(-3.0, 3.0));
+            let a = scale * random.between(0.5, 3.0);
+            let c = a * random.between(0.0, 0.97);
+            // A ring has no singular point on the way round.
+            let mu = random.between(c + 0.02 * (a - c), a - 0.02 * (a - c));
+            let surface = Dupin::quartic(a, c, mu, frame(&mut random, scale)).unwrap();
+            let from = random.between(0.0, 6.0);
+            let long = [from, from + random.sign() * turn];
+            let short = span(&mut random);
+            let patch = if index % 2 == 0 {
+                surface.patch(long, short)
+            } else {
+                surface.patch(short, long)
+            };
+            match convert(&disguised(*patch.unwrap().net(), &mut random)) {
+                Ok(found) => worst = worst.max(found.residual),
+                Err(error) => {
+                    failures += 1;
+                    println!("{turn} {index}: {error} {surface:?} {from}");
+                }
+            }
+        }
+        println!("turn {turn}: {failures} of 400 refused, worst residual {worst:.1e}");
+        assert_eq!(failures, 0);
+    }
+}
+
+/// At a pole a circle of the net shrinks to a point, and beyond it the normals of the net are reversed.
+#[test]
+fn double_spheres_come_back_across_their_poles() {
+    let mut random = Random(33);
+    let half = std::f64::consts::FRAC_PI_2;
+    let sphere = |e: f64| -> Dupin {
+        cyclide::Quartic::double_sphere(1.3, e, Frame::WORLD)
+            .unwrap()
+            .into()
+    };
+    for (e, first, second) in [
+        (0.0, [0.3, 2.0], [-2.0, -0.5]),
+        (0.0, [0.0, 1.0], [half, 2.0]),
+        (0.4, [0.0, 1.0], [half, 2.0]),
+        (0.0, [0.0, 1.0], [0.3, half]),
+        (0.3, [0.0, std::f64::consts::PI], [-half, half]),
+        (0.0, [0.2, 1.2], [half - 1e-3, half + 0.4]),
+    ] {
+        let net = *sphere(e).patch(first, second).unwrap().net();
+        let found =
+            convert(&net).unwrap_or_else(|error| panic!("{error}: {e} {first:?} {second:?}"));
+        assert_eq!(found.kind(), Kind::DoubleSphere);
+        assert!(found.residual < 1e-9, "{found:?}");
+    }
+    let (mut worst, mut failures) = (0.0_f64, 0);
+    for index in 0..1000 {
+        let scale = 10_f64.powf(random.between(-3.0, 3.0));
+        let surface: Dupin = cyclide::Quartic::double_sphere(
+            scale * random.between(0.5, 2.0),
+            if index % 4 == 0 {
+                0.0
+            } else {
+                random.between(0.0, 0.95)
+            },
+            frame(&mut random, scale),
+        )
+        .unwrap()
+        .into();
+        let theta = random.between(0.0, 6.0);
+        let pole = random.sign() * half;
+        let mut second = [
+            pole - random.between(0.05, 1.2),
+            pole + random.between(0.05, 1.2),
+        ];
+        if random.unit() < 0.5 {
+            second.reverse();
+        }
+        let first = [theta, theta + random.sign() * random.between(0.2, 3.0)];
+        let net = disguised(*surface.patch(first, second).unwrap().net(), &mut random);
+        match convert(&net) {
+            Ok(found) => worst = worst.max(found.residual),
+            Err(error) => {
+                failures += 1;
+                println!("{index}: {error} {first:?} {second:?} {surface:?}");
+            }
+        }
+    }
+    println!("{failures} of 1000 refused, worst residual {worst:.1e}");
+    assert_eq!(failures, 0);
+}
