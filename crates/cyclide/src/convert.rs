@@ -52,7 +52,7 @@ const READING_LINES: [f64; 2] = [0.37, 0.61];
 const SAMPLES: u32 = 16;
 
 /// Where an iso-curve is taken for one that has shrunk to a singular point: further inside, at the start, in the middle and at the end.
-const INSTEAD: [[f64; 3]; 3] = [[0.0, 0.14, 0.23], [0.5, 0.43, 0.61], [1.0, 0.87, 0.79]];
+pub(crate) const INSTEAD: [[f64; 3]; 3] = [[0.0, 0.14, 0.23], [0.5, 0.43, 0.61], [1.0, 0.87, 0.79]];
 
 /// Converts a biquadratic net into the cyclide of which it is a patch: quartic, parabolic or double sphere.
 ///
@@ -403,7 +403,7 @@ struct PencilAxis {
 }
 
 /// An iso-curve shorter than this share of the net is a singular point: its tangents have half their digits left.
-const POLE: f64 = 1e-8;
+pub(crate) const POLE: f64 = 1e-8;
 
 fn spheres_agree(spheres: &[Cycle; 3]) -> bool {
     let [start, ..] = spheres;

@@ -497,3 +497,114 @@ fn double_spheres_come_back_across_their_poles() {
     println!("{failures} of 1000 refused, worst residual {worst:.1e}");
     assert_eq!(failures, 0);
 }
+
+/// The corners and the frame at the first one of a patch of a surface.
+fn corner_data(surface: &Dupin, first: [f64; 2], second: [f64; 2]) -> ([DVec3; 4], [DVec3; 2]) {
+    let at = |i: usize, j: usize| surface.point(first[i], second[j]);
+    let [along_first, along_second] = surface.partials(first[0], second[0]);
+    (
+        [at(0, 0), at(0, 1), at(1, 0), at(1, 1)],
+        [along_second, along_first],
+    )
+}
+
+/// The tangent planes of an elbow with semicircular ends are parallel, or one plane, and its central control is a vector.
+#[test]
+fn corners_of_an_elbow_make_its_patch() {
+    let half = std::f64::consts::FRAC_PI_2;
+    let torus = Dupin::torus(3.0, 1.0, Frame::WORLD).unwrap();
+    let mut random = Random(41);
+    let turned = Dupin::torus(3e-3, 1e-3, frame(&mut random, 1.0)).unwrap();
+    for surface in [torus, turned] {
+        for (first, second) in [
+            ([0.0, 1.0], [-half, half]),
+            ([0.4, 2.0 * half + 0.4], [-half, half]),
+            ([0.0, 2.0 * half], [0.3, 1.2]),
+            ([0.1, 1.3], [0.2, 0.9]),
+        ] {
+            let (corners, [row, column]) = corner_data(&surface, first, second);
+            let net = patch_from_corners(corners, row, column).unwrap();
+            let expected = surface
+                .patch(first, second)
+                .unwrap()
+                .normalised_net()
+                .unwrap();
+            for (made, expected) in net
+                .control()
+                .as_flattened()
+                .iter()
+                .zip(expected.control().as_flattened())
+            {
+                assert!(
+                    (made.weight - expected.weight).abs() < 1e-11,
+                    "{made:?} {expected:?}"
+                );
+                assert!(
+                    made.weighted.distance(expected.weighted) < 1e-11,
+                    "{made:?} {expected:?}"
+                );
+            }
+            assert!(convert(&net).unwrap().residual < 1e-9);
+        }
+    }
+    let (corners, [row, column]) = corner_data(&torus, [0.0, 1.0], [-half, half]);
+    let off = [
+        corners[0],
+        corners[1],
+        corners[2],
+        corners[3] + 0.1 * DVec3::Z,
+    ];
+    assert!(matches!(
+        patch_from_corners(off, row, column),
+        Err(Error::NotAPatch { .. })
+    ));
+}
+
+/// An edge of the net may be a singular point, where the surface has no circle.
+#[test]
+fn torus_patches_with_an_edge_at_a_singular_point_come_back() {
+    let mut random = Random(43);
+    for index in 0..200 {
+        let place = frame(&mut random, 1.0);
+        let mu = random.between(1.0, 3.0);
+        let surface: Dupin = if index % 4 == 0 {
+            cyclide::Quartic::double_sphere(mu, 0.0, place)
+                .unwrap()
+                .into()
+        } else {
+            Dupin::torus(mu * random.between(0.1, 0.95), mu, place).unwrap()
+        };
+        let quartic = surface.as_quartic().unwrap();
+        let psi = (quartic.a() / quartic.mu()).acos();
+        let second = match index % 3 {
+            0 => [psi, psi + random.between(0.3, 1.5)],
+            1 => [psi + random.between(0.3, 1.5), psi],
+            _ => [psi, psi - 0.5 * psi],
+        };
+        let net = *surface.patch(span(&mut random), second).unwrap().net();
+        for net in [net, net.transposed(), net.reversed_u()] {
+            let found = convert_torus(&net, None)
+                .unwrap_or_else(|error| panic!("{index}: {error} {surface:?} {second:?}"));
+            assert!(found.residual < 1e-9);
+            let found = convert(&net).unwrap_or_else(|error| panic!("{index}: {error}"));
+            assert!(found.residual < 1e-8);
+        }
+    }
+}
+
+#[test]
+fn a_control_at_infinity_is_named() {
+    let half = std::f64::consts::FRAC_PI_2;
+    let torus = Dupin::torus(3.0, 1.0, Frame::WORLD).unwrap();
+    let mut control = *torus
+        .patch([0.0, 1.0], [-half, half])
+        .unwrap()
+        .net()
+        .control();
+    control[0][1].weight = 0.0;
+    let net = Biquadratic::new(control).unwrap();
+    assert_eq!(
+        inspect(&net),
+        Err(Error::ControlAtInfinity { row: 0, column: 1 })
+    );
+}
