@@ -1,7 +1,9 @@
 //! Cones and cylinders as lines of oriented spheres.
 
-use crate::frame::{place, size};
+use crate::frame::{direction, place, size};
 use crate::{CurvatureCircle, Error};
+#[cfg(feature = "serde")]
+use crate::{frame::length, tolerance};
 use glam::DVec3;
 use lorentz::Cycle;
 use std::f64::consts::FRAC_PI_2;
@@ -30,7 +32,7 @@ impl Cone {
     /// [`Error::NotFinite`], [`Error::LengthOutOfRange`] for the vertex; [`Error::Axis`] for a zero or infinite direction; [`Error::HalfAngle`].
     pub fn new(vertex: DVec3, axis: DVec3, half_angle: f64) -> Result<Self, Error> {
         place("cone vertex", vertex)?;
-        let axis = axis.try_normalize().ok_or(Error::Axis { axis })?;
+        let (axis, _) = direction(axis).ok_or(Error::Axis { axis })?;
         if half_angle > 0.0 && half_angle < FRAC_PI_2 {
             Ok(Self {
                 point: vertex,
@@ -51,7 +53,7 @@ impl Cone {
     pub fn cylinder(point: DVec3, axis: DVec3, radius: f64) -> Result<Self, Error> {
         place("cylinder point", point)?;
         size("cylinder radius", radius)?;
-        let axis = axis.try_normalize().ok_or(Error::Axis { axis })?;
+        let (axis, _) = direction(axis).ok_or(Error::Axis { axis })?;
         if radius <= 0.0 {
             return Err(Error::CylinderRadius { radius });
         }

@@ -166,7 +166,7 @@ impl Dupin {
         tangent: CurvatureCircle,
     ) -> Result<Self, Error> {
         place("point of the principal line", point)?;
-        let direction = direction.try_normalize().ok_or(Error::Direction)?;
+        let (direction, _) = crate::frame::direction(direction).ok_or(Error::Direction)?;
         let size = principal
             .radius
             .max(tangent.radius)

@@ -194,9 +194,17 @@ impl Parabolic {
     #[must_use]
     pub fn parameters_at(&self, point: DVec3) -> [f64; 2] {
         let p = self.frame.point_to_local(point);
+        // All planes of a pencil pass through its axis, which is the line of the infinite parameter.
+        let parameter = |side: f64, height: f64| {
+            if side == 0.0 && height == 0.0 {
+                f64::INFINITY
+            } else {
+                side / height
+            }
+        };
         [
-            -p.y / (p.x - self.f + self.k),
-            p.z / (p.x + self.f + self.k),
+            parameter(-p.y, p.x - self.f + self.k),
+            parameter(p.z, p.x + self.f + self.k),
         ]
     }
 
