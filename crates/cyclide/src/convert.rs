@@ -13,7 +13,11 @@ use std::f64::consts::{PI, TAU};
 
 /// A recognised patch: the surface, the parameters of the net's edges, and how well they reproduce it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "ConversionData")
+)]
 pub struct Conversion {
     /// The surface in canonical form: `mu >= 0` or `k >= 0`, and the frame turned about `x` so that `first` grows.
     pub surface: Dupin,
@@ -542,6 +546,45 @@ fn nearest_turn(angle: f64, reference: f64) -> f64 {
 fn reduced([from, to]: [f64; 2]) -> [f64; 2] {
     let turns = ((from + tolerance::RECOVERED_KIND) / TAU).floor();
     [(from - turns * TAU).max(0.0), to - turns * TAU]
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct ConversionData {
+    surface: Dupin,
+    rows_follow_first: bool,
+    first: [f64; 2],
+    second: [f64; 2],
+    residual: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<ConversionData> for Conversion {
+    type Error = Error;
+
+    fn try_from(data: ConversionData) -> Result<Self, Error> {
+        let ConversionData {
+            surface,
+            rows_follow_first,
+            first,
+            second,
+            residual,
+        } = data;
+        surface.patch(first, second)?;
+        if !(0.0..=tolerance::REBUILT_NET).contains(&residual) {
+            return Err(Error::NetResidual {
+                residual,
+                allowed: tolerance::REBUILT_NET,
+            });
+        }
+        Ok(Self {
+            surface,
+            rows_follow_first,
+            first,
+            second,
+            residual,
+        })
+    }
 }
 
 #[cfg(test)]

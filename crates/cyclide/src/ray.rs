@@ -21,10 +21,37 @@ pub struct RayHit {
 
 /// The intersections with one line, ascending: at most four, stored in place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "HitsData")
+)]
 pub struct RayHits {
     hits: [RayHit; 4],
     len: usize,
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct HitsData {
+    hits: [RayHit; 4],
+    len: usize,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<HitsData> for RayHits {
+    type Error = &'static str;
+
+    fn try_from(HitsData { hits, len }: HitsData) -> Result<Self, Self::Error> {
+        let found = Self { hits, len };
+        if len > found.hits.len() {
+            return Err("a line meets a cyclide at most four times");
+        }
+        if found.windows(2).any(|pair| pair[0].s > pair[1].s) {
+            return Err("the hits of a line are in ascending order");
+        }
+        Ok(found)
+    }
 }
 
 impl Deref for RayHits {
