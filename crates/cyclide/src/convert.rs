@@ -175,8 +175,39 @@ impl Scaled {
                 let Cycle { centre, radius } = sphere.cycle();
                 Cycle::new(centre, radius.abs())
             });
-            if spheres_agree(&spheres) {
-                return self.sphere(spheres[0]);
+            if !spheres_agree(&spheres, NEARLY_ONE_SPHERE) {
+                continue;
+            }
+            let agree = spheres_agree(&spheres, 10.0 * tolerance::TANGENT_SPHERES);
+            let sphere = match self.sphere(spheres[0]) {
+                Ok(sphere) => sphere,
+                Err(error) if agree => return Err(error),
+                Err(_) => continue,
+            };
+            if sphere.residual <= tolerance::RECOVERED_KIND {
+                return Ok(sphere);
+            }
+            // The digits of the difference from a sphere are few: the circles, not the spheres, must give the frame. Each round sees them
+            // from a better centre.
+            let mut better = sphere;
+            let mut net_of_circles = sphere;
+            for _ in 0..3 {
+                let Ok(found) = self.nearly_sphere(&net_of_circles, &families) else {
+                    break;
+                };
+                if found.residual < better.residual {
+                    better = found;
+                }
+                let Dupin::Quartic(quartic) = found.surface else {
+                    break;
+                };
+                match self.sphere(Cycle::new(quartic.frame().origin(), quartic.mu())) {
+                    Ok(seen) => net_of_circles = seen,
+                    Err(_) => break,
+                }
+            }
+            if agree || better.residual <= tolerance::REBUILT_NET {
+                return Ok(better);
             }
         }
         let mut outcome = Err(Error::Planar);
@@ -349,6 +380,57 @@ impl Scaled {
         )
     }
 
+    /// A cyclide next to a sphere: its frame and eccentricity are those of the net of circles on the sphere, and `a`, `mu` and the centre
+    /// follow from the tangent spheres of the first family, `(a cos theta, b sin theta, 0 ; mu - c cos theta)`, as a linear problem.
+    fn nearly_sphere(
+        &self,
+        sphere: &Conversion,
+        families: &[[HomogeneousSphere; 3]; 2],
+    ) -> Result<Conversion, Error> {
+        let Dupin::Quartic(net_of_circles) = sphere.surface else {
+            return Ok(*sphere);
+        };
+        let [rows, columns] = families;
+        let (net, first_family) = if sphere.rows_follow_first {
+            (self.net, rows)
+        } else {
+            (self.net.transposed(), columns)
+        };
+        let line = READING_LINES[0];
+        let crossing = net_of_circles.parameters_at(net.point(line, line)?);
+        let (e, q) = (net_of_circles.eccentricity(), net_of_circles.minor_ratio());
+        let frame = *net_of_circles.frame();
+        // Where the unit ellipse of centres is, and minus how the radius changes.
+        let mut expected = [Cycle::default(); 3];
+        for (expected, u) in expected.iter_mut().zip([0.0, 0.5, 1.0]) {
+            let angles = net_of_circles.parameters_at(net.point(u, line)?);
+            let [theta, _] = on_sheet(angles, crossing, 1);
+            let (sin, cos) = theta.sin_cos();
+            *expected = Cycle::new(
+                frame.vector_to_world(DVec3::new(cos, q * sin, 0.0)),
+                -e * cos,
+            );
+        }
+        let given = first_family.map(|sphere| {
+            let Cycle { centre, radius } = sphere.cycle();
+            Cycle::new(centre, radius.abs())
+        });
+        let mean = |cycles: &[Cycle; 3]| (cycles[0] + cycles[1] + cycles[2]) * (1.0 / 3.0);
+        let (mean_expected, mean_given) = (mean(&expected), mean(&given));
+        let (mut product, mut square) = (0.0, 0.0);
+        for (expected, given) in expected.iter().zip(&given) {
+            let (step, found) = (*expected - mean_expected, *given - mean_given);
+            product += step.centre.dot(found.centre) + step.radius * found.radius;
+            square += step.centre.length_squared() + step.radius * step.radius;
+        }
+        let signed = product / square;
+        let centre = mean_given - mean_expected * signed;
+        let a = signed.abs();
+        let surface =
+            Quartic::with_half_axes([a, a * q, a * e], centre.radius, frame.at(centre.centre))?;
+        self.read_off(surface.into(), sphere.rows_follow_first)
+    }
+
     /// The line common to the planes of the iso-curves `u = const`, about the centre of a sphere.
     fn pencil_axis(
         &self,
@@ -409,12 +491,15 @@ struct PencilAxis {
 /// An iso-curve shorter than this share of the net is a singular point: its tangents have half their digits left.
 pub(crate) const POLE: f64 = 1e-8;
 
-fn spheres_agree(spheres: &[Cycle; 3]) -> bool {
+/// Tangent spheres as close as this leave too few digits for the axes of their conic.
+const NEARLY_ONE_SPHERE: f64 = 1e-5;
+
+fn spheres_agree(spheres: &[Cycle; 3], tolerance: f64) -> bool {
     let [start, ..] = spheres;
     let scale = start.centre.length().max(start.radius.abs()).max(1.0);
     spheres.iter().all(|sphere| {
         let step = *sphere - *start;
-        step.centre.length().hypot(step.radius) <= 10.0 * tolerance::TANGENT_SPHERES * scale
+        step.centre.length().hypot(step.radius) <= tolerance * scale
     })
 }
 
@@ -498,21 +583,26 @@ fn spans(
             [at(line, 0.0)?[1], at(line, 1.0)?[1]],
         ]);
     };
-    // On the double sphere (theta, psi) and (theta + pi, pi - psi) are one point: the pair is the one that keeps the parameter that is
-    // constant on the line.
     let crossing = at(line, line)?;
-    let constant = |[theta, psi]: [f64; 2], which: usize| {
-        let other = [theta + PI, PI - psi];
-        let off = |pair: [f64; 2]| nearest_turn(pair[which] - crossing[which], 0.0).abs();
-        if quartic.a() == 0.0 && off(other) < off([theta, psi]) {
-            other
+    let constant = |angles: [f64; 2], which: usize| {
+        if quartic.a() == 0.0 {
+            on_sheet(angles, crossing, which)
         } else {
-            [theta, psi]
+            angles
         }
     };
     let first = span(|t| Ok(constant(at(t, line)?, 1)[0]))?;
     let second = span(|t| Ok(constant(at(line, t)?, 0)[1]))?;
     Ok([reduced(first), reduced(second)])
+}
+
+/// On the double sphere `(theta, psi)` and `(theta + pi, pi - psi)` are one point: the pair that keeps the parameter that is constant along
+/// an iso-curve through the crossing.
+fn on_sheet([theta, psi]: [f64; 2], crossing: [f64; 2], constant: usize) -> [f64; 2] {
+    let pair = [theta, psi];
+    let other = [theta + PI, PI - psi];
+    let off = |pair: [f64; 2]| nearest_turn(pair[constant] - crossing[constant], 0.0).abs();
+    if off(other) < off(pair) { other } else { pair }
 }
 
 /// An angle at the start and at the end of an iso-curve. On a patch it grows or falls all the way, by less than a full turn, so that one

@@ -608,3 +608,52 @@ fn a_control_at_infinity_is_named() {
         Err(Error::ControlAtInfinity { row: 0, column: 1 })
     );
 }
+
+/// Between a torus and a double sphere lie surfaces whose axes are hidden in the last digits of their tangent spheres.
+#[test]
+fn nearly_spherical_patches_come_back() {
+    let mut random = Random(47);
+    let (mut worst, mut failures) = (0.0_f64, 0);
+    for exponent in [-12, -10, -9, -8, -7, -6, -5, -4, -3] {
+        let mut worst_here = 0.0_f64;
+        for index in 0..200 {
+            let place = frame(&mut random, 1.0);
+            let share = 10_f64.powi(exponent);
+            let (surface, first, second) = if index == 0 {
+                let torus = Dupin::torus(share, 1.3, Frame::WORLD).unwrap();
+                (torus, [0.0, 1.0], [0.2, 1.2])
+            } else {
+                let mu = random.between(0.5, 2.0);
+                let a = mu * share * random.between(0.3, 3.0);
+                let c = if index % 2 == 0 {
+                    0.0
+                } else {
+                    a * random.between(0.05, 0.9)
+                };
+                let (theta, psi) = (random.between(0.0, 6.0), random.between(-1.0, 0.2));
+                (
+                    Dupin::quartic(a, c, mu, place).unwrap(),
+                    [theta, theta + random.between(0.4, 2.5)],
+                    [psi, psi + random.between(0.4, 1.1)],
+                )
+            };
+            let net = *surface.patch(first, second).unwrap().net();
+            match convert(&net) {
+                Ok(found) => {
+                    worst_here = worst_here.max(found.residual);
+                    let quartic = found.surface.as_quartic().unwrap();
+                    let given = surface.as_quartic().unwrap();
+                    assert!((quartic.mu() - given.mu()).abs() < 1e-8 * given.mu());
+                }
+                Err(error) => {
+                    failures += 1;
+                    println!("{exponent} {index}: {error}");
+                }
+            }
+        }
+        println!("a / mu near 1e{exponent}: worst residual {worst_here:.1e}");
+        worst = worst.max(worst_here);
+    }
+    assert_eq!(failures, 0);
+    assert!(worst < 2e-9);
+}

@@ -595,3 +595,26 @@ fn parameters_at_the_ends_of_their_ranges_are_as_documented() {
         ));
     }
 }
+
+/// Next to a sphere the squares of the closed form cancel; the parameters keep their digits all the same.
+#[test]
+fn parameters_of_nearly_spherical_surfaces_keep_their_digits() {
+    let mut random = Random(61);
+    for share in [1e-9, 1e-7, 1e-5, 0.9e-3, 1.1e-3] {
+        for _ in 0..200 {
+            let surface = Dupin::quartic(share, 0.4 * share, 1.0, Frame::WORLD).unwrap();
+            let theta = random.between(-3.1, 3.1);
+            // Away from the poles, where theta has no digits.
+            let psi = random.between(-1.4, 1.4) + if random.unit() < 0.5 { 0.0 } else { TAU / 2.0 };
+            let [found_theta, found_psi] = surface.parameters_at(surface.point(theta, psi));
+            assert!(
+                (found_theta - theta).sin().abs() < 1e-11,
+                "{share:e}: {theta}"
+            );
+            let difference = (found_psi - psi).sin().abs();
+            assert!(difference < 1e-11, "{share:e}: {psi} {found_psi}");
+            assert!(found_psi > -TAU / 2.0 && found_psi <= TAU / 2.0);
+            assert!((found_psi - psi).cos() > 0.0 && (found_theta - theta).cos() > 0.0);
+        }
+    }
+}

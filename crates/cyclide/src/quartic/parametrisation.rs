@@ -17,6 +17,9 @@ struct Angles {
     denominator: f64,
 }
 
+/// Below this share `a / mu` the digits of `psi` are taken from the normal.
+const NEARLY_SPHERICAL: f64 = 1e-3;
+
 impl Quartic {
     fn angles(&self, theta: f64, psi: f64) -> Angles {
         let (sin_theta, cos_theta) = theta.sin_cos();
@@ -122,6 +125,20 @@ impl Quartic {
         let square = p.length_squared() - mu * mu;
         let theta_sign = (square + b * b).signum();
         let theta = angle(theta_sign * b * p.y, theta_sign * (a * p.x - c * mu));
+        if a < NEARLY_SPHERICAL * mu {
+            // Next to a sphere the squares below cancel; the normal, from the centre on the ellipse, does not.
+            let (sin, cos) = theta.sin_cos();
+            let normal = (p - DVec3::new(a * cos, b * sin, 0.0)) / (mu - c * cos);
+            let [other, psi] = self.parameters_of_normal(normal);
+            let psi = if (theta - other).cos() > 0.0 {
+                psi
+            } else if psi < 0.0 {
+                -PI - psi
+            } else {
+                PI - psi
+            };
+            return [theta, psi];
+        }
         let lever = c * p.x - a * mu;
         let psi_sign = lever.signum();
         let psi = angle(psi_sign * 2.0 * b * p.z, psi_sign * (square - b * b));
