@@ -40,7 +40,11 @@ pub struct Contact {
 ///
 /// Made by [`Family::blend`]; how far it is from touching, by rounding, is [`Blend::residual`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(remote = "Self")
+)]
 pub struct Blend {
     surface: Dupin,
     family: Family,

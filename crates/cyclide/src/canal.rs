@@ -60,9 +60,10 @@ impl Dupin {
     pub fn from_canal(canal: &CanalCurve) -> Result<Determined, Error> {
         // Of nine members the three best that are spheres: the ends and the middle of those that are far from planes.
         let quadratic = canal.curve().quadratic();
-        let members: Vec<Cycle> = (0..=8)
+        let all: Vec<SphereMassPoint> = (0..=8)
             .map(|step| quadratic.at(f64::from(step) / 8.0))
-            .filter(|member| member.weighted.o.abs() > 1e-3 * member.weighted.max_abs())
+            .collect();
+        let members: Vec<Cycle> = far_from_planes(&all)
             .map(|member| {
                 Cycle::new(
                     member.weighted.v / member.weighted.o,
@@ -80,6 +81,27 @@ impl Dupin {
             }),
         }
     }
+}
+
+/// The members that are clearly spheres, seen from the one with the largest weight and in units of the curve: neither where the curve stands
+/// nor its unit of length plays a part.
+fn far_from_planes(members: &[SphereMassPoint]) -> impl Iterator<Item = SphereMassPoint> {
+    let largest =
+        |value: &dyn Fn(&SphereMassPoint) -> f64| members.iter().map(value).fold(0.0, f64::max);
+    let weight = largest(&|member| member.weighted.o.abs());
+    let centre = members
+        .iter()
+        .find(|member| member.weighted.o.abs() == weight)
+        .map_or(DVec3::ZERO, |member| member.weighted.v / member.weighted.o);
+    let reach = move |member: &SphereMassPoint| {
+        let offset = member.weighted.v - member.weighted.o * centre;
+        offset.length().max(member.weight.abs())
+    };
+    let size = largest(&reach) / weight;
+    members
+        .iter()
+        .copied()
+        .filter(move |member| member.weighted.o.abs() * size > 1e-3 * reach(member))
 }
 
 /// A mass point of the space of spheres from the weight that multiplies everything, the weighted centre, the weighted radius, and the weighted
@@ -144,5 +166,35 @@ impl Parabolic {
             radius,
             power,
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_surface_of_a_canal_curve_depends_on_neither_unit_nor_place() {
+        let far = Frame::WORLD.at(DVec3::new(100.0, 0.0, 0.0));
+        for (scale, frame) in [
+            (1.0, Frame::WORLD),
+            (1e-12, Frame::WORLD),
+            (100.0, Frame::WORLD),
+            (1e3, Frame::WORLD),
+            (1e9, Frame::WORLD),
+            (1.0, far),
+        ] {
+            let ring = Dupin::quartic(3.0 * scale, scale, 2.0 * scale, frame).expect("a ring");
+            for canal in [
+                ring.first_canal([0.2, 2.0]).expect("spheres"),
+                ring.second_canal([0.5, 2.5]).expect("spheres and a plane"),
+            ] {
+                let found = Dupin::from_canal(&canal).expect("the ring");
+                let same = found.surface.as_quartic().expect("a quartic");
+                for (one, other) in [(same.a(), 3.0), (same.c(), 1.0), (same.mu(), 2.0)] {
+                    assert!((one / scale - other).abs() < 1e-9, "{scale}: {same:?}");
+                }
+            }
+        }
     }
 }

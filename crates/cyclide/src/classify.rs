@@ -95,7 +95,11 @@ pub struct DoubleLine {
 
 /// What [`classify`] finds: the class, the geometry that proves it, and the families of blends.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(remote = "Self")
+)]
 pub struct Classification {
     class: Class,
     common_spheres: Vec<Cycle>,

@@ -1,7 +1,9 @@
 //! Cones and cylinders as lines of oriented spheres.
 
-use crate::frame::{place, size};
+use crate::frame::{direction, place, size};
 use crate::{CurvatureCircle, Error};
+#[cfg(feature = "serde")]
+use crate::{frame::length, tolerance};
 use glam::DVec3;
 use lorentz::Cycle;
 use std::f64::consts::FRAC_PI_2;
@@ -30,7 +32,7 @@ impl Cone {
     /// [`Error::NotFinite`], [`Error::LengthOutOfRange`] for the vertex; [`Error::Axis`] for a zero or infinite direction; [`Error::HalfAngle`].
     pub fn new(vertex: DVec3, axis: DVec3, half_angle: f64) -> Result<Self, Error> {
         place("cone vertex", vertex)?;
-        let axis = axis.try_normalize().ok_or(Error::Axis { axis })?;
+        let (axis, _) = direction(axis).ok_or(Error::Axis { axis })?;
         if half_angle > 0.0 && half_angle < FRAC_PI_2 {
             Ok(Self {
                 point: vertex,
@@ -51,7 +53,7 @@ impl Cone {
     pub fn cylinder(point: DVec3, axis: DVec3, radius: f64) -> Result<Self, Error> {
         place("cylinder point", point)?;
         size("cylinder radius", radius)?;
-        let axis = axis.try_normalize().ok_or(Error::Axis { axis })?;
+        let (axis, _) = direction(axis).ok_or(Error::Axis { axis })?;
         if radius <= 0.0 {
             return Err(Error::CylinderRadius { radius });
         }
@@ -81,6 +83,19 @@ impl Cone {
             sine.abs().asin(),
         )
         .ok()
+    }
+
+    /// The cone with the given line of inscribed spheres, in the orientation that cones have.
+    #[cfg(feature = "serde")]
+    pub(crate) fn of_line(line: &SphereLine) -> Result<Self, Error> {
+        if line.sin == 0.0 {
+            return Self::cylinder(line.point, line.axis, line.radius.abs());
+        }
+        Self::new(
+            line.point,
+            line.axis * line.sin.signum(),
+            line.sin.abs().atan2(line.cos),
+        )
     }
 
     /// The vertex; `None` for a cylinder.
@@ -163,7 +178,11 @@ impl Cone {
 /// oriented cone. Two oriented cones touch a common cyclide along circles of one family exactly if their lines touch one
 /// of its two conics, which is why everything about blending two cones is about two lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "LineData")
+)]
 pub struct SphereLine {
     pub(crate) point: DVec3,
     pub(crate) radius: f64,
@@ -304,5 +323,49 @@ impl From<Cone> for ConeData {
                 half_angle,
             }
         }
+    }
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct LineData {
+    point: DVec3,
+    radius: f64,
+    axis: DVec3,
+    sin: f64,
+    cos: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<LineData> for SphereLine {
+    type Error = Error;
+
+    fn try_from(data: LineData) -> Result<Self, Error> {
+        let LineData {
+            point,
+            radius,
+            axis,
+            sin,
+            cos,
+        } = data;
+        place("cone vertex", point)?;
+        length("cylinder radius", radius)?;
+        let off = |square: f64| (square - 1.0).abs();
+        if axis.is_nan() || off(axis.length_squared()) > tolerance::FRAME {
+            return Err(Error::Axis { axis });
+        }
+        let is_angle = cos > 0.0 && off(sin * sin + cos * cos) <= tolerance::FRAME;
+        if !is_angle {
+            return Err(Error::HalfAngle {
+                half_angle: sin.atan2(cos),
+            });
+        }
+        Ok(Self {
+            point,
+            radius,
+            axis,
+            sin,
+            cos,
+        })
     }
 }

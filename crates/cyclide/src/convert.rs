@@ -13,7 +13,11 @@ use std::f64::consts::{PI, TAU};
 
 /// A recognised patch: the surface, the parameters of the net's edges, and how well they reproduce it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "ConversionData")
+)]
 pub struct Conversion {
     /// The surface in canonical form: `mu >= 0` or `k >= 0`, and the frame turned about `x` so that `first` grows.
     pub surface: Dupin,
@@ -44,12 +48,15 @@ impl Conversion {
     }
 }
 
-/// Iso-curve at which a parameter is read off, and from which it is followed: an interior one, so that no edge through a singular
-/// point spoils it.
-const READING_LINE: f64 = 0.37;
+/// Iso-curves at which the parameters are read off: interior ones, so that no edge through a singular point spoils them. The second is for
+/// a double sphere of which the first runs through a pole.
+const READING_LINES: [f64; 2] = [0.37, 0.61];
 
-/// Samples along an iso-curve. Between two neighbours of a patch of nearly a full turn the angle changes by less than half a turn.
+/// Places along an iso-curve of which the one best between its ends tells the direction of the parameter.
 const SAMPLES: u32 = 16;
+
+/// Where an iso-curve is taken for one that has shrunk to a singular point: further inside, at the start, in the middle and at the end.
+pub(crate) const INSTEAD: [[f64; 3]; 3] = [[0.0, 0.14, 0.23], [0.5, 0.43, 0.61], [1.0, 0.87, 0.79]];
 
 /// Converts a biquadratic net into the cyclide of which it is a patch: quartic, parabolic or double sphere.
 ///
@@ -58,7 +65,8 @@ const SAMPLES: u32 = 16;
 ///
 /// # Errors
 ///
-/// [`Error::CornerWeights`]; [`Error::Planar`]; [`Error::ConeOrCylinder`] (limits of cyclides, not quartic ones); [`Error::NoNormal`];
+/// [`Error::CornerWeights`]; [`Error::Planar`]; [`Error::ConeOrCylinder`] (limits of cyclides, not quartic ones);
+/// [`Error::LengthOutOfRange`] if the surface is larger or smaller than a constructor allows;
 /// [`Error::NotAPatch`] with the condition that fails, if one of PG1 to PG4 or of the weights does; [`Error::NetResidual`] otherwise.
 ///
 /// # Examples
@@ -75,22 +83,25 @@ const SAMPLES: u32 = 16;
 pub fn convert(net: &Biquadratic<DVec3>) -> Result<Conversion, Error> {
     let scaled = Scaled::new(net)?;
     let mut nearest: Option<Conversion> = None;
+    let mut is_cone = false;
     // Where the patch crosses a circle that has shrunk to a singular point the normal changes side, and with it the sign of the
     // radii beyond; ordinary patches pass with the first pattern.
     for signs in [[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]] {
         match scaled.convert(signs) {
             Ok(found) if found.residual <= tolerance::REBUILT_NET => {
-                return Ok(scaled.in_world(found));
+                return scaled.in_world(found);
             }
             Ok(found) if nearest.is_none_or(|nearest| found.residual < nearest.residual) => {
                 nearest = Some(found)
             }
             Ok(_) => {}
-            Err(error @ (Error::Planar | Error::ConeOrCylinder)) if signs == [1.0, 1.0] => {
-                return Err(error);
-            }
+            Err(Error::Planar) if signs == [1.0, 1.0] => return Err(Error::Planar),
+            Err(Error::ConeOrCylinder) if signs == [1.0, 1.0] => is_cone = true,
             Err(_) => {}
         }
+    }
+    if is_cone {
+        return Err(Error::ConeOrCylinder);
     }
     // Name the broken condition if there is one.
     if let Ok(report) = crate::inspect(net) {
@@ -140,11 +151,11 @@ impl Scaled {
         })
     }
 
-    pub(crate) fn in_world(&self, found: Conversion) -> Conversion {
-        Conversion {
-            surface: found.surface.scaled(self.size).translated(self.centre),
+    pub(crate) fn in_world(&self, found: Conversion) -> Result<Conversion, Error> {
+        Ok(Conversion {
+            surface: found.surface.placed(self.size, self.centre)?,
             ..found
-        }
+        })
     }
 
     fn convert(&self, signs: [f64; 2]) -> Result<Conversion, Error> {
@@ -154,6 +165,50 @@ impl Scaled {
         ];
         if families.iter().flatten().all(|sphere| sphere.is_plane()) {
             return Err(Error::Planar);
+        }
+        // Beyond a pole the normals of a sphere's net are reversed: the sign of a radius says nothing here.
+        for family in &families {
+            if family.iter().any(HomogeneousSphere::is_plane) {
+                continue;
+            }
+            let spheres = family.map(|sphere| {
+                let Cycle { centre, radius } = sphere.cycle();
+                Cycle::new(centre, radius.abs())
+            });
+            if !spheres_agree(&spheres, NEARLY_ONE_SPHERE) {
+                continue;
+            }
+            let agree = spheres_agree(&spheres, 10.0 * tolerance::TANGENT_SPHERES);
+            let sphere = match self.sphere(spheres[0]) {
+                Ok(sphere) => sphere,
+                Err(error) if agree => return Err(error),
+                Err(_) => continue,
+            };
+            if sphere.residual <= tolerance::RECOVERED_KIND {
+                return Ok(sphere);
+            }
+            // The digits of the difference from a sphere are few: the circles, not the spheres, must give the frame. Each round sees them
+            // from a better centre.
+            let mut better = sphere;
+            let mut net_of_circles = sphere;
+            for _ in 0..3 {
+                let Ok(found) = self.nearly_sphere(&net_of_circles, &families) else {
+                    break;
+                };
+                if found.residual < better.residual {
+                    better = found;
+                }
+                let Dupin::Quartic(quartic) = found.surface else {
+                    break;
+                };
+                match self.sphere(Cycle::new(quartic.frame().origin(), quartic.mu())) {
+                    Ok(seen) => net_of_circles = seen,
+                    Err(_) => break,
+                }
+            }
+            if agree || better.residual <= tolerance::REBUILT_NET {
+                return Ok(better);
+            }
         }
         let mut outcome = Err(Error::Planar);
         for (index, family) in families.iter().enumerate() {
@@ -175,9 +230,6 @@ impl Scaled {
                         break;
                     }
                 }
-                Err(Error::NotDetermined { .. }) if spheres_agree(&spheres) => {
-                    return self.sphere(start);
-                }
                 Err(Error::ConeOrCylinder) => return Err(Error::ConeOrCylinder),
                 Err(error) => outcome = outcome.or(Err(error)),
             }
@@ -189,8 +241,17 @@ impl Scaled {
     /// The spheres that touch along the iso-curves `u = 0, 1/2, 1`.
     fn tangent_spheres(&self, net: &Biquadratic<DVec3>) -> Result<[HomogeneousSphere; 3], Error> {
         let flipped = !std::ptr::eq(net, &self.net);
-        let at = |u: f64| HomogeneousSphere::along(net, u, flipped);
-        Ok([at(0.0)?, at(0.5)?, at(1.0)?])
+        let at = |places: [f64; 3]| {
+            places
+                .into_iter()
+                .find_map(|u| HomogeneousSphere::along(net, u, flipped))
+                .ok_or(Error::NoNormal {
+                    u: places[0],
+                    v: 0.0,
+                })
+        };
+        let [start, middle, end] = INSTEAD;
+        Ok([at(start)?, at(middle)?, at(end)?])
     }
 
     pub(crate) const fn net(&self) -> &Biquadratic<DVec3> {
@@ -226,36 +287,28 @@ impl Scaled {
         } else {
             self.net.transposed()
         };
-        let along_first = |t: f64| {
-            net.point(t, READING_LINE)
-                .map(|point| surface.parameters_at(point))
+        // On a double sphere either line may run near a pole, where its angle has few digits.
+        let lines: &[f64] = match &surface {
+            Dupin::Quartic(quartic) if quartic.a() == 0.0 => &READING_LINES,
+            _ => &READING_LINES[..1],
         };
-        let along_second = |t: f64| {
-            net.point(READING_LINE, t)
-                .map(|point| surface.parameters_at(point))
-        };
-        let (first, second) = match &surface {
-            Dupin::Parabolic(_) => (
-                [along_first(0.0)?[0], along_first(1.0)?[0]],
-                [along_second(0.0)?[1], along_second(1.0)?[1]],
-            ),
-            Dupin::Quartic(quartic) => (
-                follow(quartic, along_first, 0)?,
-                follow(quartic, along_second, 1)?,
-            ),
-        };
-        let (first, second) = match surface {
-            Dupin::Quartic(_) => (reduced(first), reduced(second)),
-            Dupin::Parabolic(_) => (first, second),
-        };
-        let residual = self.residual(&surface, rows_follow_first, first, second)?;
-        Ok(Conversion {
-            surface,
-            rows_follow_first,
-            first,
-            second,
-            residual,
-        })
+        let mut best: Result<Conversion, Error> = Err(Error::Planar);
+        for &line in lines {
+            let [first, second] = spans(&net, &surface, line)?;
+            let residual = self.residual(&surface, rows_follow_first, first, second)?;
+            let found = Conversion {
+                surface,
+                rows_follow_first,
+                first,
+                second,
+                residual,
+            };
+            if best.is_ok_and(|best| best.residual <= residual) {
+                continue;
+            }
+            best = Ok(found);
+        }
+        best
     }
 
     /// Largest difference between the normalised nets, relative to their largest entry.
@@ -327,30 +380,104 @@ impl Scaled {
         )
     }
 
-    /// The line common to the planes of the iso-curves `u = 0` and `u = 1`, about the centre of a sphere.
+    /// A cyclide next to a sphere: its frame and eccentricity are those of the net of circles on the sphere, and `a`, `mu` and the centre
+    /// follow from the tangent spheres of the first family, `(a cos theta, b sin theta, 0 ; mu - c cos theta)`, as a linear problem.
+    fn nearly_sphere(
+        &self,
+        sphere: &Conversion,
+        families: &[[HomogeneousSphere; 3]; 2],
+    ) -> Result<Conversion, Error> {
+        let Dupin::Quartic(net_of_circles) = sphere.surface else {
+            return Ok(*sphere);
+        };
+        let [rows, columns] = families;
+        let (net, first_family) = if sphere.rows_follow_first {
+            (self.net, rows)
+        } else {
+            (self.net.transposed(), columns)
+        };
+        let line = READING_LINES[0];
+        let crossing = net_of_circles.parameters_at(net.point(line, line)?);
+        let (e, q) = (net_of_circles.eccentricity(), net_of_circles.minor_ratio());
+        let frame = *net_of_circles.frame();
+        // Where the unit ellipse of centres is, and minus how the radius changes.
+        let mut expected = [Cycle::default(); 3];
+        for (expected, u) in expected.iter_mut().zip([0.0, 0.5, 1.0]) {
+            let angles = net_of_circles.parameters_at(net.point(u, line)?);
+            let [theta, _] = on_sheet(angles, crossing, 1);
+            let (sin, cos) = theta.sin_cos();
+            *expected = Cycle::new(
+                frame.vector_to_world(DVec3::new(cos, q * sin, 0.0)),
+                -e * cos,
+            );
+        }
+        let given = first_family.map(|sphere| {
+            let Cycle { centre, radius } = sphere.cycle();
+            Cycle::new(centre, radius.abs())
+        });
+        let mean = |cycles: &[Cycle; 3]| (cycles[0] + cycles[1] + cycles[2]) * (1.0 / 3.0);
+        let (mean_expected, mean_given) = (mean(&expected), mean(&given));
+        let (mut product, mut square) = (0.0, 0.0);
+        for (expected, given) in expected.iter().zip(&given) {
+            let (step, found) = (*expected - mean_expected, *given - mean_given);
+            product += step.centre.dot(found.centre) + step.radius * found.radius;
+            square += step.centre.length_squared() + step.radius * step.radius;
+        }
+        let signed = product / square;
+        let centre = mean_given - mean_expected * signed;
+        let a = signed.abs();
+        let surface =
+            Quartic::with_half_axes([a, a * q, a * e], centre.radius, frame.at(centre.centre))?;
+        self.read_off(surface.into(), sphere.rows_follow_first)
+    }
+
+    /// The line common to the planes of the iso-curves `u = const`, about the centre of a sphere.
     fn pencil_axis(
         &self,
         net: &Biquadratic<DVec3>,
         centre: DVec3,
         radius: f64,
     ) -> Option<PencilAxis> {
-        let plane = |u: f64| -> Option<(DVec3, f64)> {
+        let chords = |u: f64| -> Option<(DVec3, [DVec3; 2])> {
             let [p, q, r] = [0.0, 0.5, 1.0].map(|v| net.point(u, v).ok());
-            let (p, q, r) = (p? - centre, q? - centre, r? - centre);
-            let normal = (q - p).cross(r - p).try_normalize()?;
-            Some((normal, normal.dot(p)))
+            let p = p?;
+            Some((p - centre, [q? - p, r? - p]))
         };
-        let (first, second) = (plane(0.0)?, plane(1.0)?);
-        let cross = first.0.cross(second.0);
-        if cross.length() <= tolerance::TANGENT_SPHERES {
-            return None;
+        let curves = [0.0, 0.25, 0.5, 0.75, 1.0].map(chords);
+        let longest = |[q, r]: [DVec3; 2]| q.length().max(r.length());
+        let reach = curves
+            .iter()
+            .flatten()
+            .map(|&(_, chords)| longest(chords))
+            .fold(0.0, f64::max);
+        // A curve that has shrunk to a pole has no plane.
+        let planes: Vec<(DVec3, f64)> = curves
+            .into_iter()
+            .flatten()
+            .filter(|&(_, chords)| longest(chords) > POLE * reach)
+            .filter_map(|(p, [q, r])| {
+                let normal = q.cross(r).try_normalize()?;
+                Some((normal, normal.dot(p)))
+            })
+            .collect();
+        // The two planes that meet at the largest angle.
+        let mut widest: Option<PencilAxis> = None;
+        let mut sine = tolerance::TANGENT_SPHERES;
+        for (index, first) in planes.iter().enumerate() {
+            for second in planes.iter().skip(index + 1) {
+                let cross = first.0.cross(second.0);
+                if cross.length() > sine {
+                    sine = cross.length();
+                    let foot = (first.1 * second.0.cross(cross) - second.1 * first.0.cross(cross))
+                        / cross.length_squared();
+                    widest = Some(PencilAxis {
+                        foot,
+                        direction: cross.normalize(),
+                    });
+                }
+            }
         }
-        let foot = (first.1 * second.0.cross(cross) - second.1 * first.0.cross(cross))
-            / cross.length_squared();
-        (foot.length() < radius).then_some(PencilAxis {
-            foot,
-            direction: cross.normalize(),
-        })
+        widest.filter(|axis| axis.foot.length() < radius)
     }
 }
 
@@ -361,12 +488,18 @@ struct PencilAxis {
     direction: DVec3,
 }
 
-fn spheres_agree(spheres: &[Cycle; 3]) -> bool {
+/// An iso-curve shorter than this share of the net is a singular point: its tangents have half their digits left.
+pub(crate) const POLE: f64 = 1e-8;
+
+/// Tangent spheres as close as this leave too few digits for the axes of their conic.
+const NEARLY_ONE_SPHERE: f64 = 1e-5;
+
+fn spheres_agree(spheres: &[Cycle; 3], tolerance: f64) -> bool {
     let [start, ..] = spheres;
     let scale = start.centre.length().max(start.radius.abs()).max(1.0);
     spheres.iter().all(|sphere| {
         let step = *sphere - *start;
-        step.centre.length().hypot(step.radius) <= 10.0 * tolerance::TANGENT_SPHERES * scale
+        step.centre.length().hypot(step.radius) <= tolerance * scale
     })
 }
 
@@ -380,7 +513,8 @@ struct HomogeneousSphere {
 
 impl HomogeneousSphere {
     /// From one point of the iso-curve with its normal, and the chord to another.
-    fn along(net: &Biquadratic<DVec3>, u: f64, flipped: bool) -> Result<Self, Error> {
+    /// `None` where the iso-curve has shrunk to a point or has no normal.
+    fn along(net: &Biquadratic<DVec3>, u: f64, flipped: bool) -> Option<Self> {
         // The next start is tried where the patch has no normal, at a singular corner.
         for start in [0.0, 0.5, 1.0] {
             let jet = net.jet(u, start);
@@ -396,7 +530,10 @@ impl HomogeneousSphere {
             } else {
                 along_u.cross(along_v)
             };
-            if cross.length() <= tolerance::TANGENT_SPHERES * along_u.length() * along_v.length() {
+            let lengths = [along_u.length(), along_v.length()];
+            if lengths[0].min(lengths[1]) <= POLE
+                || cross.length() <= tolerance::TANGENT_SPHERES * lengths[0] * lengths[1]
+            {
                 continue;
             }
             let Some(normal) = cross.try_normalize() else {
@@ -409,14 +546,18 @@ impl HomogeneousSphere {
                 .max_by(|one, other| one.length_squared().total_cmp(&other.length_squared()))
                 .unwrap_or_default();
             let square = chord.length_squared();
+            // The net has size one.
+            if square <= POLE * POLE {
+                return None;
+            }
             let weight = normal.dot(chord);
-            return Ok(Self {
+            return Some(Self {
                 weight,
                 centre: weight * point + 0.5 * square * normal,
                 radius: -0.5 * square,
             });
         }
-        Err(Error::NoNormal { u, v: 0.0 })
+        None
     }
 
     fn is_plane(&self) -> bool {
@@ -429,34 +570,61 @@ impl HomogeneousSphere {
     }
 }
 
-/// A parameter along an iso-curve, from its start to its end, followed by continuity.
-fn follow(
-    surface: &Quartic,
-    parameters: impl Fn(f64) -> Result<[f64; 2], bezier_mass::Error>,
-    which: usize,
-) -> Result<[f64; 2], Error> {
-    let doubled = surface.a() == 0.0;
-    let mut at = parameters(0.0)?;
-    let start = at[which];
-    for step in 1..=SAMPLES {
-        let next = parameters(f64::from(step) / f64::from(SAMPLES))?;
-        // On the double sphere (theta, psi) and (theta + pi, pi - psi) are one point.
-        let other = [next[0] + PI, PI - next[1]];
-        let [near, far] = [next, other].map(|candidate| {
-            [
-                nearest_turn(candidate[0], at[0]),
-                nearest_turn(candidate[1], at[1]),
-            ]
-        });
-        let distance =
-            |candidate: [f64; 2]| (candidate[0] - at[0]).abs() + (candidate[1] - at[1]).abs();
-        at = if doubled && distance(far) < distance(near) {
-            far
+/// The spans of both parameters of a net whose rows follow the first one, read off along the iso-curves at `line`.
+fn spans(
+    net: &Biquadratic<DVec3>,
+    surface: &Dupin,
+    line: f64,
+) -> Result<[[f64; 2]; 2], bezier_mass::Error> {
+    let at = |u: f64, v: f64| net.point(u, v).map(|point| surface.parameters_at(point));
+    let Dupin::Quartic(quartic) = surface else {
+        return Ok([
+            [at(0.0, line)?[0], at(1.0, line)?[0]],
+            [at(line, 0.0)?[1], at(line, 1.0)?[1]],
+        ]);
+    };
+    let crossing = at(line, line)?;
+    let constant = |angles: [f64; 2], which: usize| {
+        if quartic.a() == 0.0 {
+            on_sheet(angles, crossing, which)
         } else {
-            near
-        };
+            angles
+        }
+    };
+    let first = span(|t| Ok(constant(at(t, line)?, 1)[0]))?;
+    let second = span(|t| Ok(constant(at(line, t)?, 0)[1]))?;
+    Ok([reduced(first), reduced(second)])
+}
+
+/// On the double sphere `(theta, psi)` and `(theta + pi, pi - psi)` are one point: the pair that keeps the parameter that is constant along
+/// an iso-curve through the crossing.
+fn on_sheet([theta, psi]: [f64; 2], crossing: [f64; 2], constant: usize) -> [f64; 2] {
+    let pair = [theta, psi];
+    let other = [theta + PI, PI - psi];
+    let off = |pair: [f64; 2]| nearest_turn(pair[constant] - crossing[constant], 0.0).abs();
+    if off(other) < off(pair) { other } else { pair }
+}
+
+/// An angle at the start and at the end of an iso-curve. On a patch it grows or falls all the way, by less than a full turn, so that one
+/// place between the ends decides which: the one furthest from both.
+fn span(
+    angle: impl Fn(f64) -> Result<f64, bezier_mass::Error>,
+) -> Result<[f64; 2], bezier_mass::Error> {
+    let (start, end) = (angle(0.0)?, angle(1.0)?);
+    let ahead = |angle: f64| (angle - start).rem_euclid(TAU);
+    let whole = ahead(end);
+    let (mut widest, mut grows) = (-1.0, true);
+    for step in 1..SAMPLES {
+        let between = angle(f64::from(step) / f64::from(SAMPLES))?;
+        let gap = [start, end]
+            .map(|end| nearest_turn(between - end, 0.0).abs())
+            .into_iter()
+            .fold(f64::INFINITY, f64::min);
+        if gap > widest {
+            (widest, grows) = (gap, ahead(between) <= whole);
+        }
     }
-    Ok([start, at[which]])
+    Ok([start, start + if grows { whole } else { whole - TAU }])
 }
 
 /// The angle equal to `angle` up to full turns that is nearest to `reference`.
@@ -468,6 +636,45 @@ fn nearest_turn(angle: f64, reference: f64) -> f64 {
 fn reduced([from, to]: [f64; 2]) -> [f64; 2] {
     let turns = ((from + tolerance::RECOVERED_KIND) / TAU).floor();
     [(from - turns * TAU).max(0.0), to - turns * TAU]
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct ConversionData {
+    surface: Dupin,
+    rows_follow_first: bool,
+    first: [f64; 2],
+    second: [f64; 2],
+    residual: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<ConversionData> for Conversion {
+    type Error = Error;
+
+    fn try_from(data: ConversionData) -> Result<Self, Error> {
+        let ConversionData {
+            surface,
+            rows_follow_first,
+            first,
+            second,
+            residual,
+        } = data;
+        surface.patch(first, second)?;
+        if !(0.0..=tolerance::REBUILT_NET).contains(&residual) {
+            return Err(Error::NetResidual {
+                residual,
+                allowed: tolerance::REBUILT_NET,
+            });
+        }
+        Ok(Self {
+            surface,
+            rows_follow_first,
+            first,
+            second,
+            residual,
+        })
+    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! Cyclide patches from the outside in: four concircular corners and the frame at one of them.
 
 use crate::frame::place;
-use crate::{Error, inspect, tolerance};
+use crate::recognise::concyclicity;
+use crate::{Condition, Error, inspect, tolerance};
 use bezier_mass::{Biquadratic, MassPoint};
 use glam::DVec3;
 
@@ -14,7 +15,8 @@ use glam::DVec3;
 ///
 /// # Errors
 ///
-/// [`Error::NotFinite`], [`Error::LengthOutOfRange`]; [`Error::Corners`] if the directions are not orthogonal, corners coincide, or the tangent planes meet in no point;
+/// [`Error::NotFinite`], [`Error::LengthOutOfRange`]; [`Error::Corners`] if the directions are not orthogonal, corners coincide, or an
+/// edge is a full circle;
 /// [`Error::NotAPatch`] if the corners are not on one circle.
 ///
 /// # Examples
@@ -55,7 +57,6 @@ pub fn patch_from_corners(
             .ok_or(coincide)
     };
     let (over_row, over_column) = (mirror(p00, p02)?, mirror(p00, p20)?);
-    let normal = along_row.cross(along_column);
     // Middle control of the arc that leaves `from` along `tangent` and ends in `to`: weight cos(span/2), a vector for a semicircle.
     let arc = |from: DVec3, tangent: DVec3, to: DVec3| {
         let length = from.distance(to);
@@ -69,62 +70,66 @@ pub fn patch_from_corners(
     }
     let far_column = arc(p02, over_row(along_column), p22) * root;
     let far_row = arc(p20, over_column(along_row), p22) * root;
-    let central = central_control(
-        corners,
-        [along_row, along_column],
-        [over_row(normal), over_column(normal)],
-    )?;
+    // The iso-curve from the middle of the first row to the middle of the last is an arc too; its middle control is that of the rows.
+    let middle = |start: MassPoint<DVec3>, control: MassPoint<DVec3>, end: MassPoint<DVec3>| {
+        start * 0.25 + control * 0.5 + end * 0.25
+    };
+    let corner_controls = [(p00, 1.0), (p02, 1.0), (p20, 1.0), (p22, root * root)]
+        .map(|(at, weight)| MassPoint::point(at, weight));
+    let [from, to] = [
+        middle(corner_controls[0], row, corner_controls[1]),
+        middle(corner_controls[2], far_row, corner_controls[3]),
+    ];
+    let collapse = Error::Corners {
+        reason: "the edges fold back on themselves",
+    };
+    let (start, end) = (
+        from.position().ok_or(collapse)?,
+        to.position().ok_or(collapse)?,
+    );
+    let tangent = mirror(p00, start)?(along_column);
+    let scale = (from.weight * to.weight).sqrt();
+    let central = arc(start, tangent, end) * (2.0 * scale) - (column + far_column) * 0.5;
+    if !(central.weight.is_finite() && central.weighted.is_finite()) {
+        return Err(collapse);
+    }
+    let [start, row_end, column_end, end] = corner_controls;
     let net = Biquadratic::new([
-        [MassPoint::point(p00, 1.0), row, MassPoint::point(p02, 1.0)],
+        [start, row, row_end],
         [column, central, far_column],
-        [
-            MassPoint::point(p20, 1.0),
-            far_row,
-            MassPoint::point(p22, root * root),
-        ],
+        [column_end, far_row, end],
     ])?;
-    // Semicircular edges have controls at infinity, which the point conditions cannot judge.
-    if let Ok(report) = inspect(&net) {
-        report.check()?;
+    let size = p00
+        .distance(p02)
+        .max(p00.distance(p20))
+        .max(p00.distance(p22));
+    let concyclic = concyclicity([p00, p02, p22, p20], size);
+    if concyclic.is_nan() || concyclic > tolerance::NET {
+        return Err(Error::NotAPatch {
+            condition: Condition::ConcyclicCorners,
+            residual: concyclic,
+            allowed: tolerance::NET,
+        });
+    }
+    // Controls at infinity, as of semicircular edges, cannot be judged as points; nor can those that only rounding keeps from there.
+    let largest = largest_weight(&net);
+    let are_points = net
+        .control()
+        .as_flattened()
+        .iter()
+        .all(|control| control.weight.abs() > NEAR_INFINITY * largest);
+    if are_points {
+        inspect(&net)?.check()?;
     }
     Ok(net)
 }
 
-/// The control where the corners' tangent planes meet, with its weight.
-fn central_control(
-    [p00, p02, p20, _]: [DVec3; 4],
-    [along_row, along_column]: [DVec3; 2],
-    normals: [DVec3; 2],
-) -> Result<MassPoint<DVec3>, Error> {
-    // P11 = P00 + x along_row + y along_column in the tangent planes at P02 and P20.
-    let equations = [(normals[0], p02), (normals[1], p20)].map(|(normal, corner)| {
-        (
-            normal.dot(along_row),
-            normal.dot(along_column),
-            normal.dot(corner - p00),
-        )
-    });
-    let [(a, b, e), (c, d, f)] = equations;
-    let determinant = a * d - b * c;
-    if determinant.abs() <= tolerance::NET * tolerance::NET {
-        return Err(Error::Corners {
-            reason: "the tangent planes of the corners meet in no point",
-        });
-    }
-    let (x, y) = ((e * d - b * f) / determinant, (a * f - e * c) / determinant);
-    let (row, column) = (p02 - p00, p20 - p00);
-    // The weight of the biquadratic conditions with lambda = x / (row / 2 cos), nu likewise, written without dividing by cosines.
-    let inverse_row = 2.0 * row.dot(along_row) / row.length_squared();
-    let inverse_column = 2.0 * column.dot(along_column) / column.length_squared();
-    let weight = row.length() * column.length() / (4.0 * x * y)
-        * (x * inverse_row + y * inverse_column - 1.0);
-    if !weight.is_finite() {
-        return Err(Error::Corners {
-            reason: "the central control lies on an edge tangent",
-        });
-    }
-    Ok(MassPoint::point(
-        p00 + x * along_row + y * along_column,
-        weight,
-    ))
+/// Controls with a smaller share of the largest weight have lost too many digits as points.
+const NEAR_INFINITY: f64 = 1e-6;
+
+fn largest_weight(net: &Biquadratic<DVec3>) -> f64 {
+    net.control()
+        .as_flattened()
+        .iter()
+        .fold(0.0, |largest, control| control.weight.abs().max(largest))
 }

@@ -1,5 +1,6 @@
 //! Cyclides from what determines them: three tangent spheres of one family, principal circles, a curve on the space of spheres.
 
+use crate::frame::{length, place};
 use crate::{CurvatureCircle, Dupin, Error, Frame, Parabolic, Quartic, tolerance};
 use glam::DVec3;
 use lorentz::Cycle;
@@ -22,8 +23,8 @@ impl Dupin {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`], [`Error::LengthOutOfRange`]; [`Error::NotDetermined`] if two of the spheres are equal or one touches another from inside; [`Error::ConeOrCylinder`]
-    /// if the three are inscribed in one cone.
+    /// [`Error::NotFinite`]; [`Error::LengthOutOfRange`] for the spheres or the surface; [`Error::NotDetermined`] if two of the spheres are equal
+    /// or one touches another from inside; [`Error::ConeOrCylinder`] if the three are inscribed in one cone.
     ///
     /// # Examples
     ///
@@ -38,8 +39,8 @@ impl Dupin {
     /// ```
     pub fn from_tangent_spheres(spheres: [Cycle; 3]) -> Result<Determined, Error> {
         for sphere in spheres {
-            crate::frame::place("sphere centre", sphere.centre)?;
-            crate::frame::length("sphere radius", sphere.radius)?;
+            place("sphere centre", sphere.centre)?;
+            length("sphere radius", sphere.radius)?;
         }
         let [origin, ..] = spheres;
         // About the first centre, in units of the largest distance: all tolerances are then plain numbers.
@@ -56,7 +57,7 @@ impl Dupin {
             spheres.map(|sphere| (sphere - Cycle::new(origin.centre, 0.0)) * (1.0 / size)),
         )?;
         Ok(Determined {
-            surface: found.surface.scaled(size).translated(origin.centre),
+            surface: found.surface.placed(size, origin.centre)?,
             ..found
         })
     }
@@ -164,8 +165,8 @@ impl Dupin {
         principal: CurvatureCircle,
         tangent: CurvatureCircle,
     ) -> Result<Self, Error> {
-        crate::frame::place("point of the principal line", point)?;
-        let direction = direction.try_normalize().ok_or(Error::Direction)?;
+        place("point of the principal line", point)?;
+        let (direction, _) = crate::frame::direction(direction).ok_or(Error::Direction)?;
         let size = principal
             .radius
             .max(tangent.radius)
@@ -216,20 +217,15 @@ impl Dupin {
         Ok(Self::Parabolic(Parabolic::new(f, k, frame)?.canonical()))
     }
 
-    /// The same shape, larger by a positive factor about the world's origin.
-    #[must_use]
-    pub(crate) fn scaled(self, factor: f64) -> Self {
-        let frame = self.frame().at(self.frame().origin() * factor);
-        match self {
-            Self::Quartic(surface) => Self::Quartic(surface.scaled_in(factor, frame)),
-            Self::Parabolic(surface) => Self::Parabolic(surface.scaled_in(factor, frame)),
-        }
-    }
-
-    /// The same shape moved by a vector.
-    #[must_use]
-    pub(crate) fn translated(self, by: DVec3) -> Self {
-        self.in_frame(self.frame().at(self.frame().origin() + by))
+    /// The same shape, larger by a positive factor about the world's origin and then moved by a vector; refused where a constructor would
+    /// refuse its lengths.
+    pub(crate) fn placed(self, factor: f64, by: DVec3) -> Result<Self, Error> {
+        let origin = place("frame origin", self.frame().origin() * factor + by)?;
+        let frame = self.frame().at(origin);
+        Ok(match self {
+            Self::Quartic(surface) => Self::Quartic(surface.scaled_in(factor, frame)?),
+            Self::Parabolic(surface) => Self::Parabolic(surface.scaled_in(factor, frame)?),
+        })
     }
 }
 

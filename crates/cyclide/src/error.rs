@@ -72,8 +72,8 @@ pub enum Error {
         /// Parameter `mu`.
         mu: f64,
     },
-    /// A ray without a direction.
-    #[error("a ray needs a nonzero finite direction")]
+    /// A ray or line without a direction, or with one so short that its parameters overflow.
+    #[error("a ray needs a nonzero finite direction, long enough for finite parameters")]
     Direction,
     /// A parameter span that one biquadratic patch cannot cover.
     #[error("a patch spans more than 0 and less than 2 pi, not from {from} to {to}")]
@@ -105,6 +105,14 @@ pub enum Error {
     CornerWeights {
         /// The weights of the corners 00, 02, 20, 22.
         weights: [f64; 4],
+    },
+    /// A control of a net is a vector, a point at infinity, where points are needed.
+    #[error("the control in row {row} and column {column} is at infinity, where a point is needed")]
+    ControlAtInfinity {
+        /// Row of the control, from 0.
+        row: usize,
+        /// Column of the control, from 0.
+        column: usize,
     },
     /// All tangent spheres are planes: the patch is plane.
     #[error("planar patch")]

@@ -69,8 +69,8 @@ impl Frame {
     /// perpendicular; `None` if the two are parallel, zero or not finite, or the origin is out of range.
     #[must_use]
     pub fn from_directions(origin: DVec3, x: DVec3, y_hint: DVec3) -> Option<Self> {
-        let x = x.try_normalize()?;
-        let y_hint = y_hint.try_normalize()?;
+        let (x, _) = direction(x)?;
+        let (y_hint, _) = direction(y_hint)?;
         let y = (y_hint - y_hint.dot(x) * x).try_normalize()?;
         // A second pass removes what the first one rounded.
         let y = (y - y.dot(x) * x).try_normalize()?;
@@ -85,7 +85,7 @@ impl Frame {
     /// Some frame with the given `z`; its `x` is an arbitrary perpendicular. `None` for a zero or infinite direction.
     #[must_use]
     pub fn around(origin: DVec3, z: DVec3) -> Option<Self> {
-        let z = z.try_normalize()?;
+        let (z, _) = direction(z)?;
         let x = z.any_orthonormal_vector();
         Self::from_directions(origin, x, z.cross(x))
     }
@@ -187,6 +187,19 @@ impl From<Frame> for [DVec3; 4] {
     fn from(frame: Frame) -> Self {
         [frame.origin, frame.x, frame.y, frame.z]
     }
+}
+
+/// The unit vector of a direction of any length, and the two factors of this length, each of which a double holds; `None` for a direction
+/// that is zero or not finite.
+pub(crate) fn direction(vector: DVec3) -> Option<(DVec3, [f64; 2])> {
+    // The sum of squares of the largest component alone may overflow or vanish.
+    let largest = vector.abs().max_element();
+    if !(vector.is_finite() && largest > 0.0) {
+        return None;
+    }
+    let within = vector / largest;
+    let length = within.length();
+    Some((within / length, [largest, length]))
 }
 
 /// Refuses NaN and infinities at the door.

@@ -106,7 +106,9 @@
 //!
 //! # Features
 //!
-//! - `serde`: `Serialize` and `Deserialize` for all value types; what a constructor would refuse is refused.
+//! - `serde`: `Serialize` and `Deserialize` for all value types. Values with private parts are checked when they are read: what a constructor
+//!   would refuse is refused, and so are parts of a blend, a family or a tube that do not belong together. Values that are public numbers
+//!   (a circle, a hit, a report) are read as they are.
 //! - `rayon`: [`Dupin::intersect_all`] on all cores.
 
 #[cfg(doctest)]
@@ -138,6 +140,8 @@ mod recognise;
 mod ring;
 mod section;
 mod spheres;
+#[cfg(feature = "serde")]
+mod stored;
 pub mod tolerance;
 mod torus_patch;
 mod tube;

@@ -138,18 +138,22 @@ impl Quartic {
     /// curvature that would bend it vanish by the symmetry `(theta, psi) -> (theta + pi, pi - psi)`. The rest is the (signed) volume
     /// of the surface `mu = 0`.
     fn ring_volume(&self) -> f64 {
-        let (a, b, c, mu) = (self.a(), self.b(), self.c(), self.mu());
+        // All lengths divided by a: the volume of a surface of any allowed size is in range, the powers inside need not be.
+        let (e, q, mu) = (
+            self.eccentricity(),
+            self.minor_ratio(),
+            self.mu() / self.a(),
+        );
         let whole = [[0.0, TAU]];
-        let (aa, cc) = (a * a, c * c);
         let growth = integrate(&whole, |t| {
-            let square = cc * t.cos().powi(2);
-            (aa + square) / (aa - square).powf(1.5)
+            let square = (e * t.cos()).powi(2);
+            (1.0 + square) / (1.0 - square).powf(1.5)
         });
         let core = integrate(&whole, |t| {
-            let square = t.cos().powi(2);
-            square / (aa - cc * square).powf(2.5)
+            let square = (e * t.cos()).powi(2);
+            square / (1.0 - square).powf(2.5)
         });
-        PI * b * b * growth * mu * mu + PI * aa * cc * b.powi(4) * core
+        PI * q * q * (growth * mu * mu + q * q * core) * self.a().powi(3)
     }
 }
 
@@ -313,6 +317,21 @@ mod tests {
         }
         let torus = Dupin::torus(3.0, 1.0, Frame::WORLD).unwrap();
         assert!((torus.volume().unwrap() - TAU * PI * 3.0).abs() < 1e-11);
+    }
+
+    #[test]
+    fn the_volume_grows_with_the_cube_of_the_size() {
+        let volume = |scale: f64| {
+            let ring =
+                Dupin::quartic(3.0 * scale, scale, 2.0 * scale, Frame::WORLD).expect("a ring");
+            ring.volume().expect("a ring has one")
+        };
+        let unit = volume(1.0);
+        for exponent in [-69, -60, -45, -10, 10, 40, 50, 60, 69] {
+            let scale = 10_f64.powi(exponent);
+            let share = volume(scale) / scale.powi(3) / unit;
+            assert!((share - 1.0).abs() < 1e-12, "{scale:e}: {share}");
+        }
     }
 
     #[test]

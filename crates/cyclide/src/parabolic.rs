@@ -76,12 +76,8 @@ impl Parabolic {
     }
 
     /// All lengths multiplied by a positive factor, in the given frame.
-    pub(crate) fn scaled_in(self, factor: f64, frame: Frame) -> Self {
-        Self {
-            f: self.f * factor,
-            k: self.k * factor,
-            frame,
-        }
+    pub(crate) fn scaled_in(self, factor: f64, frame: Frame) -> Result<Self, Error> {
+        Self::new(self.f * factor, self.k * factor, frame)
     }
 
     /// The same point set with `k >= 0`. For `k < 0` the symmetry `(x, y, z, k) -> (-x, z, y, -k)` turns the frame,
@@ -198,9 +194,17 @@ impl Parabolic {
     #[must_use]
     pub fn parameters_at(&self, point: DVec3) -> [f64; 2] {
         let p = self.frame.point_to_local(point);
+        // All planes of a pencil pass through its axis, which is the line of the infinite parameter.
+        let parameter = |side: f64, height: f64| {
+            if side == 0.0 && height == 0.0 {
+                f64::INFINITY
+            } else {
+                side / height
+            }
+        };
         [
-            -p.y / (p.x - self.f + self.k),
-            p.z / (p.x + self.f + self.k),
+            parameter(-p.y, p.x - self.f + self.k),
+            parameter(p.z, p.x + self.f + self.k),
         ]
     }
 

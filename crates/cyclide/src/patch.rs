@@ -11,8 +11,14 @@ use std::f64::consts::{PI, TAU};
 /// Row `i` of the net follows the first parameter (`theta` or `u`), column `j` the second. The controls are mass points: weights
 /// may vanish or be negative, also for spans below `pi` (on a surface with `c > 0` an edge weight vanishes where the *arc* is a
 /// semicircle, and that is not at span `pi`).
+///
+/// With the feature `serde` it is stored as the surface and the bounds, and the net is made again.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "PatchData", into = "PatchData")
+)]
 pub struct CyclidePatch {
     surface: Dupin,
     first: [f64; 2],
@@ -307,4 +313,38 @@ pub fn normalise(net: &Biquadratic<DVec3>) -> Result<Biquadratic<DVec3>, Error> 
     let scaled = [0, 1, 2]
         .map(|i| [0, 1, 2].map(|j| control[i][j] * (row_factors[i] * column_factors[j] / corner)));
     Ok(Biquadratic::new(scaled)?)
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct PatchData {
+    surface: Dupin,
+    first: [f64; 2],
+    second: [f64; 2],
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<PatchData> for CyclidePatch {
+    type Error = Error;
+
+    fn try_from(data: PatchData) -> Result<Self, Error> {
+        data.surface.patch(data.first, data.second)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<CyclidePatch> for PatchData {
+    fn from(patch: CyclidePatch) -> Self {
+        let CyclidePatch {
+            surface,
+            first,
+            second,
+            ..
+        } = patch;
+        Self {
+            surface,
+            first,
+            second,
+        }
+    }
 }

@@ -21,10 +21,37 @@ pub struct RayHit {
 
 /// The intersections with one line, ascending: at most four, stored in place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "HitsData")
+)]
 pub struct RayHits {
     hits: [RayHit; 4],
     len: usize,
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct HitsData {
+    hits: [RayHit; 4],
+    len: usize,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<HitsData> for RayHits {
+    type Error = &'static str;
+
+    fn try_from(HitsData { hits, len }: HitsData) -> Result<Self, Self::Error> {
+        let found = Self { hits, len };
+        if len > found.hits.len() {
+            return Err("a line meets a cyclide at most four times");
+        }
+        if found.windows(2).any(|pair| pair[0].s > pair[1].s) {
+            return Err("the hits of a line are in ascending order");
+        }
+        Ok(found)
+    }
 }
 
 impl Deref for RayHits {
@@ -91,15 +118,9 @@ impl RayCaster {
     pub fn intersect(&mut self, origin: DVec3, direction: DVec3) -> Result<RayHits, Error> {
         place("ray origin", origin)?;
         finite_vector("ray direction", direction)?;
-        let length = direction.length();
-        if !(length > 0.0 && length.is_finite()) {
-            return Err(Error::Direction);
-        }
+        let (unit, lengths) = crate::frame::direction(direction).ok_or(Error::Direction)?;
         let frame = self.surface.frame();
-        let (origin, direction) = (
-            frame.point_to_local(origin),
-            frame.vector_to_local(direction) / length,
-        );
+        let (origin, direction) = (frame.point_to_local(origin), frame.vector_to_local(unit));
         let mut hits = match &self.surface {
             Dupin::Quartic(surface) => {
                 surface.intersect_local(&mut self.solver, origin, direction)?
@@ -109,8 +130,13 @@ impl RayCaster {
             }
         };
         for hit in &mut hits.hits {
-            hit.s /= length;
-            hit.error /= length;
+            for length in lengths {
+                hit.s /= length;
+                hit.error /= length;
+            }
+            if !hit.s.is_finite() {
+                return Err(Error::Direction);
+            }
         }
         Ok(hits)
     }
@@ -125,7 +151,8 @@ impl Dupin {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`]; [`Error::LengthOutOfRange`] for the origin; [`Error::Direction`] for a zero direction; [`Error::Root`] if the line lies on the surface.
+    /// [`Error::NotFinite`]; [`Error::LengthOutOfRange`] for the origin; [`Error::Direction`] for a zero direction, or one so short that the
+    /// parameters overflow; [`Error::Root`] if the line lies on the surface.
     ///
     /// # Examples
     ///
@@ -181,8 +208,11 @@ impl Quartic {
         direction: DVec3,
     ) -> Result<RayHits, Error> {
         let centre = DVec3::new(-self.c(), 0.0, 0.0);
-        let start = (centre - origin).dot(direction);
-        let nearest = origin + start * direction;
+        let far_start = (centre - origin).dot(direction);
+        let near = origin + far_start * direction;
+        // From a distant origin the first step is rounded by more than the surface's size; the second is exact enough.
+        let rest = (centre - near).dot(direction);
+        let (start, nearest) = (far_start + rest, near + rest * direction);
         let distance = nearest - centre;
         let radius = self.enclosing_radius();
         let reach = (radius - distance.length()) * (radius + distance.length());
@@ -209,9 +239,16 @@ impl Quartic {
             return Ok(hits);
         }
         let coefficients = bernstein_from_monomial_quartic(self.along(nearest, direction), half);
-        let interval = Interval::try_new(start - half, start + half)?;
+        // About the nearest point: from a distant origin the surface may lie between two neighbouring numbers.
+        let interval = Interval::try_new(-half, half)?;
         for root in solver.roots_on(&coefficients, interval)? {
-            hits.push(hit(root));
+            let local = hit(root);
+            let s = start + local.s;
+            hits.push(RayHit {
+                s,
+                error: local.error + f64::EPSILON * s.abs(),
+                ..local
+            });
         }
         Ok(hits)
     }

@@ -105,17 +105,15 @@ impl NetReport {
 ///
 /// # Errors
 ///
-/// [`Error::CornerWeights`]; [`Error::Mass`] with `AtInfinity` if a control is a vector.
+/// [`Error::CornerWeights`]; [`Error::ControlAtInfinity`] if a control is a vector.
 pub fn inspect(net: &Biquadratic<DVec3>) -> Result<NetReport, Error> {
     let net = normalise(net)?;
     let mut points = [[DVec3::ZERO; 3]; 3];
-    for (row, controls) in points.iter_mut().zip(net.control()) {
-        for (point, control) in row.iter_mut().zip(controls) {
+    for (row, (points, controls)) in points.iter_mut().zip(net.control()).enumerate() {
+        for (column, (point, control)) in points.iter_mut().zip(controls).enumerate() {
             *point = control
                 .position()
-                .ok_or(Error::Mass(bezier_mass::Error::NonFinite {
-                    what: "control point of the net",
-                }))?;
+                .ok_or(Error::ControlAtInfinity { row, column })?;
         }
     }
     let weights = net.control().map(|row| row.map(|control| control.weight));
@@ -279,7 +277,7 @@ fn worst(residuals: [f64; 4]) -> f64 {
 }
 
 /// How far four points are from one circle or line, relative to `size`.
-fn concyclicity(corners: [DVec3; 4], size: f64) -> f64 {
+pub(crate) fn concyclicity(corners: [DVec3; 4], size: f64) -> f64 {
     let [a, b, c, d] = corners;
     // The largest triangle carries the circle.
     let triangles = [(a, b, c, d), (b, c, d, a), (c, d, a, b), (d, a, b, c)];

@@ -4,9 +4,9 @@
 //! read off directly, as the distance of the meridian's centre from the axis and the meridian's radius, instead of by counting the
 //! intersections of the meridian circles, which is unstable at the horn torus.
 
-use crate::convert::Scaled;
+use crate::convert::{INSTEAD, POLE, Scaled};
 use crate::{Conversion, Error, Frame, Quartic, tolerance};
-use bezier_mass::Biquadratic;
+use bezier_mass::{Biquadratic, MassPoint};
 use glam::DVec3;
 
 /// Converts a biquadratic net whose rows (or columns) are circles about one axis into a patch of a torus or of a double sphere.
@@ -69,19 +69,19 @@ pub fn convert_torus(
             allowed: tolerance::REBUILT_NET,
         });
     }
-    Ok(scaled.in_world(found))
+    scaled.in_world(found)
 }
 
 /// What the algorithm reads from the edges of a net whose rows 0 and 2 may be parallel circles.
 #[derive(Clone, Copy)]
 struct Edges {
-    /// The circle of row 0.
+    /// The circle of row 0, or of an inner iso-curve where this row is a singular point.
     parallel: EdgeCircle,
     /// The circle of column 0.
     meridian: EdgeCircle,
-    /// Corner 00.
+    /// Where this circle starts.
     start: DVec3,
-    /// How far the circles of rows 0 and 2 are from being coaxial.
+    /// How far the circles at both ends are from being coaxial.
     deviation: f64,
 }
 
@@ -93,20 +93,11 @@ struct EdgeCircle {
 }
 
 fn edges(net: &Biquadratic<DVec3>) -> Option<Edges> {
+    let [first, _, last] = INSTEAD;
+    let (parallel, start) = row_circle(net, first)?;
+    let (opposite, _) = row_circle(net, last)?;
     let control = net.control();
-    let parallel = edge_circle(
-        control[0].map(|mass_point| mass_point.weighted),
-        control[0].map(|mass_point| mass_point.weight),
-    )?;
-    let opposite = edge_circle(
-        control[2].map(|mass_point| mass_point.weighted),
-        control[2].map(|mass_point| mass_point.weight),
-    )?;
-    let column = [control[0][0], control[1][0], control[2][0]];
-    let meridian = edge_circle(
-        column.map(|mass_point| mass_point.weighted),
-        column.map(|mass_point| mass_point.weight),
-    )?;
+    let meridian = edge_circle([control[0][0], control[1][0], control[2][0]])?;
     let tilt = parallel.axis.cross(opposite.axis).length();
     let shift = (opposite.centre - parallel.centre)
         .cross(parallel.axis)
@@ -114,20 +105,35 @@ fn edges(net: &Biquadratic<DVec3>) -> Option<Edges> {
     Some(Edges {
         parallel,
         meridian,
-        start: control[0][0].position()?,
+        start,
         deviation: tilt.max(shift),
     })
 }
 
+/// The circle of the first of some iso-curves that has not shrunk to a point, and where it starts.
+fn row_circle(net: &Biquadratic<DVec3>, places: [f64; 3]) -> Option<(EdgeCircle, DVec3)> {
+    let [first, second, third] = net.control();
+    places.into_iter().find_map(|u| {
+        let other = 1.0 - u;
+        let row = [0, 1, 2].map(|j| {
+            first[j] * (other * other) + second[j] * (2.0 * u * other) + third[j] * (u * u)
+        });
+        let start = row[0].position()?;
+        let middle = (row[0] * 0.25 + row[1] * 0.5 + row[2] * 0.25).position()?;
+        // The net has size one.
+        (start.distance(middle) > POLE)
+            .then(|| edge_circle(row))
+            .flatten()
+            .map(|circle| (circle, start))
+    })
+}
+
 /// The circle of a rational quadratic arc: its centre is on the bisector of the chord, where the radius is orthogonal to the tangent.
-fn edge_circle(
-    [first, middle, last]: [DVec3; 3],
-    [weight, middle_weight, last_weight]: [f64; 3],
-) -> Option<EdgeCircle> {
-    let (start, end) = (first / weight, last / last_weight);
+fn edge_circle([first, middle, last]: [MassPoint<DVec3>; 3]) -> Option<EdgeCircle> {
+    let (start, end) = (first.position()?, last.position()?);
     let chord = end - start;
     // Weighted tangent at the start, defined for a middle control at infinity too.
-    let tangent = (middle - middle_weight * start).try_normalize()?;
+    let tangent = (middle.weighted - middle.weight * start).try_normalize()?;
     let axis = tangent.cross(chord).try_normalize()?;
     let inward = axis.cross(tangent);
     let radius = chord.length_squared() / (2.0 * chord.dot(inward));

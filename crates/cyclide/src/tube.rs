@@ -6,7 +6,11 @@ use std::f64::consts::TAU;
 
 /// One of the two parts into which the contact circles cut the surface of a blend.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(remote = "Self")
+)]
 pub struct Tube {
     surface: Dupin,
     contact_family: ContactFamily,

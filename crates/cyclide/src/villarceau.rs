@@ -14,7 +14,11 @@ impl Quartic {
     pub fn villarceau_circle(&self, phi: f64, sign: f64) -> Result<Circle, Error> {
         self.require_ring()?;
         let (sin, cos) = crate::frame::finite("phi", phi)?.sin_cos();
-        let sign = if sign < 0.0 { -1.0 } else { 1.0 };
+        let sign = if crate::frame::finite("sign", sign)? < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
         let (a, b, c, mu) = (self.a(), self.b(), self.c(), self.mu());
         let (root_c, root_a) = (((mu - c) * (mu + c)).sqrt(), ((a - mu) * (a + mu)).sqrt());
         let sphere_centre = DVec3::new(-mu * sin, root_c * cos, 0.0) * sign;

@@ -2,6 +2,7 @@
 //! finite, never a panic, never a search without an end.
 
 mod common;
+use bezier_mass::Biquadratic;
 use common::pairs::Random;
 use cyclide::glam::{DVec3, dvec3};
 use cyclide::{
@@ -243,4 +244,56 @@ fn joins_of_hostile_circles_end() {
             let _ = Dupin::from_principal_line_and_circle(place, DVec3::X, circle, good);
         }
     }
+}
+
+/// What is determined by other data obeys the limits of the constructors, after the units are put back.
+#[test]
+fn determined_surfaces_have_sizes_in_range() {
+    let ring = Dupin::quartic(3.0, 1.0, 2.0, Frame::WORLD).unwrap();
+    let parabolic = Dupin::parabolic(1.0, 0.2, Frame::WORLD).unwrap();
+    let refused = |error: Error| matches!(error, Error::LengthOutOfRange { .. });
+    for surface in [ring, parabolic] {
+        let spheres = [0.1, 1.0, 2.0].map(|first| surface.first_sphere(first));
+        let net = *surface.patch([0.3, 1.1], [0.4, 1.3]).unwrap().net();
+        for scale in [1e-160, 1e-90, 1e-72, 1e-60, 1.0, 1e60, 1e72, 1e90, 1e150] {
+            let scaled = spheres.map(|sphere| sphere * scale);
+            let grown = Biquadratic::new(
+                net.control()
+                    .map(|row| row.map(|control| control.map_linear(|weighted| weighted * scale))),
+            )
+            .unwrap();
+            let in_range = (1e-60..=1e60).contains(&scale);
+            let results = [
+                Dupin::from_tangent_spheres(scaled).map(|found| found.surface),
+                convert(&grown).map(|found| found.surface),
+            ];
+            for result in results {
+                match result {
+                    Ok(found) => {
+                        assert!(in_range, "{scale:e}: {found:?}");
+                        let place = dvec3(4.3, -1.2, 0.9);
+                        let (near, expected) = (
+                            found.closest(place * scale).unwrap(),
+                            surface.closest(place).unwrap(),
+                        );
+                        assert!((near.distance / scale - expected.distance).abs() < 1e-9);
+                    }
+                    Err(error) => assert!(
+                        !in_range && (refused(error) || !(1e-100..1e100).contains(&scale)),
+                        "{scale:e}: {error}"
+                    ),
+                }
+            }
+        }
+    }
+    let circle = |x: f64, radius: f64| CurvatureCircle {
+        centre: dvec3(x * 1e-90, 0.0, 0.0),
+        radius: radius * 1e-90,
+        axis: DVec3::Z,
+    };
+    let found = Dupin::from_principal_circles(
+        [circle(0.0, 4.0), circle(0.0, 2.0)],
+        [circle(3.0, 1.0), circle(-3.0, 1.0)],
+    );
+    assert!(found.is_err_and(refused), "{found:?}");
 }

@@ -402,3 +402,258 @@ fn hostile_nets_are_refused() {
         assert!(ring.positive_patches(span, [0.0, 1.0], 0.05).is_err());
     }
 }
+
+/// The weights of nearly a full turn gather almost all of it in a small part of the net.
+#[test]
+fn patches_of_nearly_a_full_turn_come_back() {
+    let mut random = Random(31);
+    for turn in [6.05, 6.1, 6.15, 6.2, std::f64::consts::TAU - 0.003] {
+        let (mut worst, mut failures) = (0.0_f64, 0);
+        for index in 0..400 {
+            let scale = 10_f64.powf(random.between(-3.0, 3.0));
+            let a = scale * random.between(0.5, 3.0);
+            let c = a * random.between(0.0, 0.97);
+            // A ring has no singular point on the way round.
+            let mu = random.between(c + 0.02 * (a - c), a - 0.02 * (a - c));
+            let surface = Dupin::quartic(a, c, mu, frame(&mut random, scale)).unwrap();
+            let from = random.between(0.0, 6.0);
+            let long = [from, from + random.sign() * turn];
+            let short = span(&mut random);
+            let patch = if index % 2 == 0 {
+                surface.patch(long, short)
+            } else {
+                surface.patch(short, long)
+            };
+            match convert(&disguised(*patch.unwrap().net(), &mut random)) {
+                Ok(found) => worst = worst.max(found.residual),
+                Err(error) => {
+                    failures += 1;
+                    println!("{turn} {index}: {error} {surface:?} {from}");
+                }
+            }
+        }
+        println!("turn {turn}: {failures} of 400 refused, worst residual {worst:.1e}");
+        assert_eq!(failures, 0);
+    }
+}
+
+/// At a pole a circle of the net shrinks to a point, and beyond it the normals of the net are reversed.
+#[test]
+fn double_spheres_come_back_across_their_poles() {
+    let mut random = Random(33);
+    let half = std::f64::consts::FRAC_PI_2;
+    let sphere = |e: f64| -> Dupin {
+        cyclide::Quartic::double_sphere(1.3, e, Frame::WORLD)
+            .unwrap()
+            .into()
+    };
+    for (e, first, second) in [
+        (0.0, [0.3, 2.0], [-2.0, -0.5]),
+        (0.0, [0.0, 1.0], [half, 2.0]),
+        (0.4, [0.0, 1.0], [half, 2.0]),
+        (0.0, [0.0, 1.0], [0.3, half]),
+        (0.3, [0.0, std::f64::consts::PI], [-half, half]),
+        (0.0, [0.2, 1.2], [half - 1e-3, half + 0.4]),
+    ] {
+        let net = *sphere(e).patch(first, second).unwrap().net();
+        let found =
+            convert(&net).unwrap_or_else(|error| panic!("{error}: {e} {first:?} {second:?}"));
+        assert_eq!(found.kind(), Kind::DoubleSphere);
+        assert!(found.residual < 1e-9, "{found:?}");
+    }
+    let (mut worst, mut failures) = (0.0_f64, 0);
+    for index in 0..1000 {
+        let scale = 10_f64.powf(random.between(-3.0, 3.0));
+        let surface: Dupin = cyclide::Quartic::double_sphere(
+            scale * random.between(0.5, 2.0),
+            if index % 4 == 0 {
+                0.0
+            } else {
+                random.between(0.0, 0.95)
+            },
+            frame(&mut random, scale),
+        )
+        .unwrap()
+        .into();
+        let theta = random.between(0.0, 6.0);
+        let pole = random.sign() * half;
+        let mut second = [
+            pole - random.between(0.05, 1.2),
+            pole + random.between(0.05, 1.2),
+        ];
+        if random.unit() < 0.5 {
+            second.reverse();
+        }
+        let first = [theta, theta + random.sign() * random.between(0.2, 3.0)];
+        let net = disguised(*surface.patch(first, second).unwrap().net(), &mut random);
+        match convert(&net) {
+            Ok(found) => worst = worst.max(found.residual),
+            Err(error) => {
+                failures += 1;
+                println!("{index}: {error} {first:?} {second:?} {surface:?}");
+            }
+        }
+    }
+    println!("{failures} of 1000 refused, worst residual {worst:.1e}");
+    assert_eq!(failures, 0);
+}
+
+/// The corners and the frame at the first one of a patch of a surface.
+fn corner_data(surface: &Dupin, first: [f64; 2], second: [f64; 2]) -> ([DVec3; 4], [DVec3; 2]) {
+    let at = |i: usize, j: usize| surface.point(first[i], second[j]);
+    let [along_first, along_second] = surface.partials(first[0], second[0]);
+    (
+        [at(0, 0), at(0, 1), at(1, 0), at(1, 1)],
+        [along_second, along_first],
+    )
+}
+
+/// The tangent planes of an elbow with semicircular ends are parallel, or one plane, and its central control is a vector.
+#[test]
+fn corners_of_an_elbow_make_its_patch() {
+    let half = std::f64::consts::FRAC_PI_2;
+    let torus = Dupin::torus(3.0, 1.0, Frame::WORLD).unwrap();
+    let mut random = Random(41);
+    let turned = Dupin::torus(3e-3, 1e-3, frame(&mut random, 1.0)).unwrap();
+    for surface in [torus, turned] {
+        for (first, second) in [
+            ([0.0, 1.0], [-half, half]),
+            ([0.4, 2.0 * half + 0.4], [-half, half]),
+            ([0.0, 2.0 * half], [0.3, 1.2]),
+            ([0.1, 1.3], [0.2, 0.9]),
+        ] {
+            let (corners, [row, column]) = corner_data(&surface, first, second);
+            let net = patch_from_corners(corners, row, column).unwrap();
+            let expected = surface
+                .patch(first, second)
+                .unwrap()
+                .normalised_net()
+                .unwrap();
+            for (made, expected) in net
+                .control()
+                .as_flattened()
+                .iter()
+                .zip(expected.control().as_flattened())
+            {
+                assert!(
+                    (made.weight - expected.weight).abs() < 1e-11,
+                    "{made:?} {expected:?}"
+                );
+                assert!(
+                    made.weighted.distance(expected.weighted) < 1e-11,
+                    "{made:?} {expected:?}"
+                );
+            }
+            assert!(convert(&net).unwrap().residual < 1e-9);
+        }
+    }
+    let (corners, [row, column]) = corner_data(&torus, [0.0, 1.0], [-half, half]);
+    let off = [
+        corners[0],
+        corners[1],
+        corners[2],
+        corners[3] + 0.1 * DVec3::Z,
+    ];
+    assert!(matches!(
+        patch_from_corners(off, row, column),
+        Err(Error::NotAPatch { .. })
+    ));
+}
+
+/// An edge of the net may be a singular point, where the surface has no circle.
+#[test]
+fn torus_patches_with_an_edge_at_a_singular_point_come_back() {
+    let mut random = Random(43);
+    for index in 0..200 {
+        let place = frame(&mut random, 1.0);
+        let mu = random.between(1.0, 3.0);
+        let surface: Dupin = if index % 4 == 0 {
+            cyclide::Quartic::double_sphere(mu, 0.0, place)
+                .unwrap()
+                .into()
+        } else {
+            Dupin::torus(mu * random.between(0.1, 0.95), mu, place).unwrap()
+        };
+        let quartic = surface.as_quartic().unwrap();
+        let psi = (quartic.a() / quartic.mu()).acos();
+        let second = match index % 3 {
+            0 => [psi, psi + random.between(0.3, 1.5)],
+            1 => [psi + random.between(0.3, 1.5), psi],
+            _ => [psi, psi - 0.5 * psi],
+        };
+        let net = *surface.patch(span(&mut random), second).unwrap().net();
+        for net in [net, net.transposed(), net.reversed_u()] {
+            let found = convert_torus(&net, None)
+                .unwrap_or_else(|error| panic!("{index}: {error} {surface:?} {second:?}"));
+            assert!(found.residual < 1e-9);
+            let found = convert(&net).unwrap_or_else(|error| panic!("{index}: {error}"));
+            assert!(found.residual < 1e-8);
+        }
+    }
+}
+
+#[test]
+fn a_control_at_infinity_is_named() {
+    let half = std::f64::consts::FRAC_PI_2;
+    let torus = Dupin::torus(3.0, 1.0, Frame::WORLD).unwrap();
+    let mut control = *torus
+        .patch([0.0, 1.0], [-half, half])
+        .unwrap()
+        .net()
+        .control();
+    control[0][1].weight = 0.0;
+    let net = Biquadratic::new(control).unwrap();
+    assert_eq!(
+        inspect(&net),
+        Err(Error::ControlAtInfinity { row: 0, column: 1 })
+    );
+}
+
+/// Between a torus and a double sphere lie surfaces whose axes are hidden in the last digits of their tangent spheres.
+#[test]
+fn nearly_spherical_patches_come_back() {
+    let mut random = Random(47);
+    let (mut worst, mut failures) = (0.0_f64, 0);
+    for exponent in [-12, -10, -9, -8, -7, -6, -5, -4, -3] {
+        let mut worst_here = 0.0_f64;
+        for index in 0..200 {
+            let place = frame(&mut random, 1.0);
+            let share = 10_f64.powi(exponent);
+            let (surface, first, second) = if index == 0 {
+                let torus = Dupin::torus(share, 1.3, Frame::WORLD).unwrap();
+                (torus, [0.0, 1.0], [0.2, 1.2])
+            } else {
+                let mu = random.between(0.5, 2.0);
+                let a = mu * share * random.between(0.3, 3.0);
+                let c = if index % 2 == 0 {
+                    0.0
+                } else {
+                    a * random.between(0.05, 0.9)
+                };
+                let (theta, psi) = (random.between(0.0, 6.0), random.between(-1.0, 0.2));
+                (
+                    Dupin::quartic(a, c, mu, place).unwrap(),
+                    [theta, theta + random.between(0.4, 2.5)],
+                    [psi, psi + random.between(0.4, 1.1)],
+                )
+            };
+            let net = *surface.patch(first, second).unwrap().net();
+            match convert(&net) {
+                Ok(found) => {
+                    worst_here = worst_here.max(found.residual);
+                    let quartic = found.surface.as_quartic().unwrap();
+                    let given = surface.as_quartic().unwrap();
+                    assert!((quartic.mu() - given.mu()).abs() < 1e-8 * given.mu());
+                }
+                Err(error) => {
+                    failures += 1;
+                    println!("{exponent} {index}: {error}");
+                }
+            }
+        }
+        println!("a / mu near 1e{exponent}: worst residual {worst_here:.1e}");
+        worst = worst.max(worst_here);
+    }
+    assert_eq!(failures, 0);
+    assert!(worst < 2e-9);
+}

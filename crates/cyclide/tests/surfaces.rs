@@ -530,3 +530,91 @@ fn hostile_cones_and_surfaces_are_refused() {
         }
     }
 }
+
+/// Directions have any length that a double holds, and rays start as far away as a length may be.
+#[test]
+fn directions_of_any_length_and_distant_origins_are_rays() {
+    let ring = Dupin::quartic(3.0, 1.0, 2.0, Frame::WORLD).unwrap();
+    for length in [1e-300, 1e-200, 1.0, 1e200, 1e308] {
+        let hits = ring
+            .intersect(DVec3::new(-10.0, 0.0, 0.0), DVec3::X * length)
+            .unwrap();
+        let x: Vec<f64> = hits.iter().map(|hit| hit.s * length - 10.0).collect();
+        for (x, expected) in x.iter().zip([-6.0, 0.0, 2.0, 4.0]) {
+            assert!((x - expected).abs() < 1e-12, "{length:e}: {x:?}");
+        }
+        assert_eq!(x.len(), 4);
+        let cone = Cone::new(DVec3::ZERO, DVec3::Z * length, 0.4).unwrap();
+        assert_eq!(cone.axis(), DVec3::Z);
+        assert!(Cone::cylinder(DVec3::ZERO, DVec3::splat(length), 1.0).is_ok());
+        assert!(Frame::around(DVec3::ZERO, DVec3::splat(length)).is_some());
+    }
+    assert_eq!(
+        ring.intersect(DVec3::new(-10.0, 0.0, 0.0), DVec3::X * 5e-324),
+        Err(Error::Direction)
+    );
+    for distance in [1e9, 1e17, 1e30, 1e69] {
+        let hits = ring
+            .intersect(DVec3::new(-distance, 0.0, 0.0), DVec3::X)
+            .unwrap();
+        assert_eq!(hits.len(), 4);
+        for (hit, expected) in hits.iter().zip([-6.0, 0.0, 2.0, 4.0]) {
+            assert!((hit.s - distance - expected).abs() <= hit.error, "{hit:?}");
+        }
+    }
+}
+
+#[test]
+fn parameters_at_the_ends_of_their_ranges_are_as_documented() {
+    let ring = *Dupin::quartic(3.0, 1.0, 2.0, Frame::WORLD)
+        .unwrap()
+        .as_quartic()
+        .unwrap();
+    for zero in [0.0, -0.0] {
+        for place in [DVec3::new(-6.0, zero, zero), DVec3::new(-6.0, zero, -zero)] {
+            let angles = ring.parameters_at(place);
+            assert!(
+                angles.iter().all(|&angle| angle > -TAU / 2.0),
+                "{place} {angles:?}"
+            );
+        }
+    }
+    let sphere = Quartic::double_sphere(1.0, 0.0, Frame::WORLD).unwrap();
+    for place in [DVec3::new(1.0, 0.0, 0.0), DVec3::new(1.0, -0.0, -0.0)] {
+        assert!(sphere.parameters_at(place)[0] > -TAU / 2.0);
+    }
+    let parabolic = Dupin::parabolic(1.0, 0.25, Frame::WORLD).unwrap();
+    let on_axis = parabolic.parameters_at(DVec3::new(0.75, 0.0, 0.5));
+    assert_eq!(on_axis, [f64::INFINITY, 0.25]);
+    let on_other = parabolic.parameters_at(DVec3::new(-1.25, 0.5, 0.0));
+    assert_eq!(on_other, [0.25, f64::INFINITY]);
+    for sign in [f64::NAN, f64::INFINITY] {
+        assert!(matches!(
+            ring.villarceau_circle(0.3, sign),
+            Err(Error::NotFinite { what: "sign", .. })
+        ));
+    }
+}
+
+/// Next to a sphere the squares of the closed form cancel; the parameters keep their digits all the same.
+#[test]
+fn parameters_of_nearly_spherical_surfaces_keep_their_digits() {
+    let mut random = Random(61);
+    for share in [1e-9, 1e-7, 1e-5, 0.9e-3, 1.1e-3] {
+        for _ in 0..200 {
+            let surface = Dupin::quartic(share, 0.4 * share, 1.0, Frame::WORLD).unwrap();
+            let theta = random.between(-3.1, 3.1);
+            // Away from the poles, where theta has no digits.
+            let psi = random.between(-1.4, 1.4) + if random.unit() < 0.5 { 0.0 } else { TAU / 2.0 };
+            let [found_theta, found_psi] = surface.parameters_at(surface.point(theta, psi));
+            assert!(
+                (found_theta - theta).sin().abs() < 1e-11,
+                "{share:e}: {theta}"
+            );
+            let difference = (found_psi - psi).sin().abs();
+            assert!(difference < 1e-11, "{share:e}: {psi} {found_psi}");
+            assert!(found_psi > -TAU / 2.0 && found_psi <= TAU / 2.0);
+            assert!((found_psi - psi).cos() > 0.0 && (found_theta - theta).cos() > 0.0);
+        }
+    }
+}

@@ -48,7 +48,11 @@ pub(crate) enum Structure {
 ///
 /// Shene's parameter, a point `X` on a diagonal, is reached by [`Family::blend_at`] and [`Family::diagonal_point_of`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(remote = "Self")
+)]
 pub struct Family {
     pub(crate) lines: [SphereLine; 2],
     pub(crate) orientation: i8,

@@ -88,7 +88,10 @@ impl Quartic {
         mu: f64,
         frame: Frame,
     ) -> Result<Self, Error> {
-        for (what, value) in [("a", a), ("b", b), ("c", c), ("mu", mu)] {
+        for (what, value) in [("a", a), ("mu", mu)] {
+            size(what, value)?;
+        }
+        for (what, value) in [("b", b), ("c", c)] {
             length(what, value)?;
         }
         if !(b > 0.0 && a >= b) {
@@ -212,15 +215,22 @@ impl Quartic {
     }
 
     /// All lengths multiplied by a positive factor, in the given frame.
-    pub(crate) fn scaled_in(self, factor: f64, frame: Frame) -> Self {
-        Self {
-            a: self.a * factor,
+    pub(crate) fn scaled_in(self, factor: f64, frame: Frame) -> Result<Self, Error> {
+        let (a, mu) = (self.a * factor, self.mu * factor);
+        // A product that rounds to zero would be another kind of surface.
+        for (what, before, after) in [("a", self.a, a), ("mu", self.mu, mu)] {
+            if before != 0.0 && after == 0.0 {
+                return Err(Error::LengthOutOfRange { what, value: after });
+            }
+        }
+        Ok(Self {
+            a: size("a", a)?,
             b: self.b * factor,
             c: self.c * factor,
-            mu: self.mu * factor,
+            mu: size("mu", mu)?,
             frame,
             ..self
-        }
+        })
     }
 
     /// The parallel surface at signed distance `distance` along the normal: again a cyclide with the same frame, `a` and

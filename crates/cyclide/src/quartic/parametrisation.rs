@@ -2,6 +2,7 @@
 
 use super::Quartic;
 use glam::DVec3;
+use std::f64::consts::PI;
 
 /// One point of the parametrisation: cosines, sines and the common denominator, all divided by `a`.
 #[derive(Clone, Copy, Debug)]
@@ -15,6 +16,9 @@ struct Angles {
     /// `1 - e cos theta cos psi`, positive for `c < a`
     denominator: f64,
 }
+
+/// Below this share `a / mu` the digits of `psi` are taken from the normal.
+const NEARLY_SPHERICAL: f64 = 1e-3;
 
 impl Quartic {
     fn angles(&self, theta: f64, psi: f64) -> Angles {
@@ -115,15 +119,29 @@ impl Quartic {
     pub fn parameters_at(&self, point: DVec3) -> [f64; 2] {
         let p = self.frame.point_to_local(point);
         if self.a == 0.0 {
-            return self.parameters_of_normal(p / p.length());
+            return self.parameters_of_normal(p.normalize_or(DVec3::X));
         }
         let (a, b, c, mu) = (self.a, self.b, self.c, self.mu);
         let square = p.length_squared() - mu * mu;
         let theta_sign = (square + b * b).signum();
-        let theta = (theta_sign * b * p.y).atan2(theta_sign * (a * p.x - c * mu));
+        let theta = angle(theta_sign * b * p.y, theta_sign * (a * p.x - c * mu));
+        if a < NEARLY_SPHERICAL * mu {
+            // Next to a sphere the squares below cancel; the normal, from the centre on the ellipse, does not.
+            let (sin, cos) = theta.sin_cos();
+            let normal = (p - DVec3::new(a * cos, b * sin, 0.0)) / (mu - c * cos);
+            let [other, psi] = self.parameters_of_normal(normal);
+            let psi = if (theta - other).cos() > 0.0 {
+                psi
+            } else if psi < 0.0 {
+                -PI - psi
+            } else {
+                PI - psi
+            };
+            return [theta, psi];
+        }
         let lever = c * p.x - a * mu;
         let psi_sign = lever.signum();
-        let psi = (psi_sign * 2.0 * b * p.z).atan2(psi_sign * (square - b * b));
+        let psi = angle(psi_sign * 2.0 * b * p.z, psi_sign * (square - b * b));
         [theta, psi]
     }
 
@@ -136,8 +154,14 @@ impl Quartic {
         let cos_psi_sin_theta = -q * normal.y / denominator;
         let sin_psi = -q * normal.z / denominator;
         [
-            cos_psi_sin_theta.atan2(product),
+            angle(cos_psi_sin_theta, product),
             sin_psi.atan2(product.hypot(cos_psi_sin_theta)),
         ]
     }
+}
+
+/// The angle of a vector, in `(-pi, pi]`: minus pi, the answer for a sine of minus zero, is pi.
+fn angle(sin: f64, cos: f64) -> f64 {
+    let angle = sin.atan2(cos);
+    if angle == -PI { PI } else { angle }
 }
