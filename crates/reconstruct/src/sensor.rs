@@ -17,6 +17,12 @@ pub enum SensorKind {
     Magnetometer,
     /// Magnetometer without the axis normal to the ribbon; the third coordinate of its readings is ignored
     /// and completed from gravity and the dip of the field.
+    ///
+    /// With two axes a lost field is found less often: where gravity leaves the ribbon's plane by more than 0.1, when
+    /// the completed field's horizontal part is wrong by more than half; elsewhere, when the two axes contradict the dip
+    /// by as much. A weak field on a tilted ribbon can pass for one of another heading, and on a ribbon edge-on to gravity
+    /// near the magnetic equator a weak field passes for one along the missing axis. Two zeros are refused as a dead
+    /// sensor.
     MagnetometerTwoAxis,
 }
 
@@ -122,7 +128,9 @@ impl Calibration {
         let magnitude = body.length();
         if axes == 2 {
             let body = DVec3::new(body.x, body.y, 0.0);
-            return if body.length() <= LARGEST_MAGNITUDE {
+            // Exactly nothing on both axes is a dead sensor, not a field along the missing one.
+            let dead = body == DVec3::ZERO;
+            return if body.length() <= LARGEST_MAGNITUDE && !dead {
                 Ok(body)
             } else {
                 Err(ReadingFault::FieldLost { magnitude })
