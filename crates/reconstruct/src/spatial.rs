@@ -125,6 +125,29 @@ impl SpatialRibbon {
         })
     }
 
+    /// The ribbon with other tangents at the same arc lengths, by the same method with the same ends.
+    pub(crate) fn with_tangents(&self, tangents: &[DVec3]) -> Result<Self, Error> {
+        Self::with_method(&self.knots, tangents, self.method(), self.end)
+    }
+
+    /// How the tangents are interpolated.
+    #[must_use]
+    pub fn method(&self) -> TangentMethod {
+        match self.tangent {
+            Tangent::Projected(_) => TangentMethod::Projected,
+            Tangent::Spherical(_) => TangentMethod::SphericalSpline,
+        }
+    }
+
+    /// The end condition; the spherical spline has its own natural-like ends.
+    #[must_use]
+    pub fn end_condition(&self) -> EndCondition {
+        match self.tangent {
+            Tangent::Projected(_) => self.end,
+            Tangent::Spherical(_) => EndCondition::Natural,
+        }
+    }
+
     /// The arc lengths of the data.
     #[must_use]
     pub fn arc_lengths(&self) -> &[f64] {
@@ -188,15 +211,24 @@ impl SpatialRibbon {
     /// How the position at arc length `s` moves when tangent `j` moves by a small vector: one matrix a
     /// datum, in units of length. `dx(s) = sum_j M_j dT_j`,
     /// `M_j = integral of phi_j (I - T T^T) / |S|`, with the cardinal splines `phi_j` and the spline `S`.
-    /// For the spherical spline this is the derivative of the projected one, which agrees to first order in
-    /// the turning between neighbouring sensors.
+    /// For the spherical spline this is the derivative of the projected one with natural ends, which agrees to first
+    /// order in the turning between neighbouring sensors.
+    ///
+    /// Beyond the ends it goes on as [`SpatialRibbon::point`] does; an `s` that is no number gives NaN.
     #[must_use]
     pub fn sensitivity(&self, s: f64) -> Vec<DMat3> {
-        let cardinals = cardinal_splines(&self.knots, self.end);
+        let cardinals = cardinal_splines(&self.knots, self.end_condition());
         let mut totals = vec![DMat3::ZERO; cardinals.len()];
-        for pair in self.knots.windows(2).take_while(|pair| pair[0] < s) {
-            let end = s.min(pair[1]);
-            self.add_sensitivity(&cardinals, pair[0], end, &mut totals);
+        if s.is_nan() {
+            return vec![DMat3::NAN; cardinals.len()];
+        }
+        let last = self.knots.len() - 2;
+        for (i, pair) in self.knots.windows(2).enumerate() {
+            let end = if i == last { s } else { s.min(pair[1]) };
+            // Before the start the first interval is run backwards.
+            if i == 0 || pair[0] < s {
+                self.add_sensitivity(&cardinals, pair[0], end, &mut totals);
+            }
         }
         totals
     }
@@ -228,7 +260,8 @@ impl SpatialRibbon {
     }
 
     /// The covariance of the position at each datum (length squared), when the tangents carry independent
-    /// isotropic errors of standard deviation `sigma` (radians, per direction across the tangent).
+    /// isotropic errors of standard deviation `sigma` (radians, per direction across the tangent). Only the square of
+    /// `sigma` enters, so its sign does not matter; a `sigma` that is no number gives NaN.
     #[must_use]
     pub fn covariance(&self, sigma: f64) -> Vec<DMat3> {
         self.positions_sensitivity()
@@ -246,7 +279,7 @@ impl SpatialRibbon {
 
     /// [`SpatialRibbon::sensitivity`] at every datum.
     pub(crate) fn positions_sensitivity(&self) -> Vec<Vec<DMat3>> {
-        let cardinals = cardinal_splines(&self.knots, self.end);
+        let cardinals = cardinal_splines(&self.knots, self.end_condition());
         let mut row = vec![DMat3::ZERO; cardinals.len()];
         let mut rows = vec![row.clone()];
         for pair in self.knots.windows(2) {

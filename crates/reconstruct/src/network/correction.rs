@@ -2,7 +2,7 @@
 
 use super::RibbonNetwork;
 use crate::Error;
-use crate::spatial::{SpatialRibbon, outer};
+use crate::spatial::outer;
 use glam::{DMat3, DVec3};
 use nalgebra::{DMatrix, DVector};
 
@@ -134,7 +134,7 @@ impl RibbonNetwork {
                         }))
                 })
                 .collect();
-            *ribbon = SpatialRibbon::new(ribbon.arc_lengths(), &tangents)?;
+            *ribbon = ribbon.with_tangents(&tangents)?;
             if i > 0 {
                 let at = rows + 3 * (i - 1);
                 self.origins[i] += DVec3::new(solution[at], solution[at + 1], solution[at + 2]);

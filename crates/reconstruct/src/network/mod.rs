@@ -250,6 +250,7 @@ fn check(ribbons: &[SpatialRibbon], crossings: &[Crossing]) -> Result<(), Error>
 mod tests {
     use super::*;
     use crate::testing::Noise;
+    use crate::{EndCondition, TangentMethod};
 
     /// Great circles of the unit sphere through given points: ribbons laid on a ball.
     fn arc(
@@ -332,6 +333,41 @@ mod tests {
         let again =
             RibbonNetwork::new(network.ribbons().to_vec(), network.crossings().to_vec()).unwrap();
         assert!(again.largest_turn() < 1e-9);
+    }
+
+    /// The corrected ribbons are what their tangents give by the method and with the ends that they came with.
+    #[test]
+    fn ribbons_keep_their_method_and_ends() {
+        let bent = |h: f64, method, end| {
+            let s: Vec<f64> = (0..12).map(|i| 0.09 * f64::from(i)).collect();
+            let from = DVec3::new(1.0, -0.5, h).normalize();
+            let across = (DVec3::Y - from * from.y).normalize();
+            let tangent = |(i, s): (usize, &f64)| {
+                across * s.cos() - from * s.sin() + DVec3::Z * (0.02 * ((i * 7 % 5) as f64 - 2.0))
+            };
+            let tangents: Vec<DVec3> = s.iter().enumerate().map(tangent).collect();
+            SpatialRibbon::with_method(&s, &tangents, method, end).unwrap()
+        };
+        let crossings = [[0.1, 0.12], [0.8, 0.85]].map(|s| Crossing { ribbons: [0, 1], s });
+        for (method, end) in [
+            (TangentMethod::Projected, EndCondition::Natural),
+            (TangentMethod::SphericalSpline, EndCondition::NotAKnot),
+        ] {
+            let ribbons = vec![bent(0.0, method, end), bent(0.1, method, end)];
+            let network = RibbonNetwork::new(ribbons, crossings.to_vec()).unwrap();
+            assert!(network.gap_before() > 1e-4, "{}", network.gap_before());
+            for ribbon in network.ribbons() {
+                assert_eq!(ribbon.method(), method);
+                let again = SpatialRibbon::with_method(
+                    ribbon.arc_lengths(),
+                    ribbon.tangents(),
+                    method,
+                    end,
+                );
+                let (a, b) = (ribbon.points()[11], again.unwrap().points()[11]);
+                assert!(a.distance(b) < 1e-12, "{}", a.distance(b));
+            }
+        }
     }
 
     #[test]
