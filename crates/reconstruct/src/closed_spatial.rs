@@ -122,10 +122,10 @@ impl ClosedSpatialRibbon {
         &self.points
     }
 
-    /// The unit tangent at `s`.
+    /// The unit tangent at `s`, periodic with the length.
     #[must_use]
     pub fn tangent(&self, s: f64) -> DVec3 {
-        self.spline.value(s).normalize_or_zero()
+        self.spline.periodic_value(s).normalize_or_zero()
     }
 }
 
@@ -154,6 +154,9 @@ mod tests {
         assert!(ribbon.closing_error().length() > 1e-4);
         assert!(ribbon.points()[n as usize].length() < 5e-12);
         assert!(ribbon.largest_adjustment() < 0.2);
+        for around in [length, -length, 3.0 * length] {
+            assert!((ribbon.tangent(0.3 + around) - ribbon.tangent(0.3)).length() < 1e-13);
+        }
         let straight = ClosedSpatialRibbon::new(&s, &vec![DVec3::X; n as usize], length);
         assert!(matches!(straight, Err(Error::NoConvergence { .. })));
     }

@@ -123,7 +123,8 @@ impl PlanarRibbon {
 
     /// The covariance of the position at each datum, when the angles carry independent errors of standard
     /// deviation `sigma` (radians). First order: the position is linear in small errors of the angles,
-    /// `dx(s) = sum_j dalpha_j * integral of phi_j (-sin, cos)`, `phi_j` the cardinal splines.
+    /// `dx(s) = sum_j dalpha_j * integral of phi_j (-sin, cos)`, `phi_j` the cardinal splines. Only the square of
+    /// `sigma` enters, so its sign does not matter; a `sigma` that is no number gives NaN.
     #[must_use]
     pub fn covariance(&self, sigma: f64) -> Vec<DMat2> {
         let knots = self.angle.knots();
@@ -245,10 +246,10 @@ impl ClosedPlanarRibbon {
         &self.points
     }
 
-    /// The tangent angle at `s`, radians.
+    /// The tangent angle at `s`, radians; once around it grows by the full turns of the curve.
     #[must_use]
     pub fn angle(&self, s: f64) -> f64 {
-        self.angle.value(s) + self.turning_rate * (s - self.angle.knots()[0])
+        self.angle.periodic_value(s) + self.turning_rate * (s - self.angle.knots()[0])
     }
 }
 

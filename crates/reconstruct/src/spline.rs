@@ -230,6 +230,12 @@ impl<V: VectorSpace> CubicSpline<V> {
         self.piece(interval(&self.knots, s)).value(s)
     }
 
+    /// The value at `s` of a periodic spline, the period being the span of the knots.
+    pub(crate) fn periodic_value(&self, s: f64) -> V {
+        let [start, end] = [self.knots[0], self.knots[self.knots.len() - 1]];
+        self.value(start + (s - start).rem_euclid(end - start))
+    }
+
     /// The cubic on the interval with this index, which must exist.
     pub(crate) fn piece(&self, i: usize) -> Cubic<V> {
         Cubic {
