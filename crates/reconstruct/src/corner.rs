@@ -11,7 +11,11 @@ pub type Corners = [[CornerData; 2]; 2];
 
 /// What is known of a surface at a corner of a patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredCorner")
+)]
 pub struct CornerData {
     point: DVec3,
     normal: DVec3,
@@ -138,6 +142,34 @@ impl CornerData {
             half + 0.5 * self.torsion_difference,
             half - 0.5 * self.torsion_difference,
         ]
+    }
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(rename = "CornerData")]
+struct StoredCorner {
+    point: DVec3,
+    normal: DVec3,
+    tangents: [DVec3; 2],
+    curvatures: [f64; 2],
+    torsion_difference: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredCorner> for CornerData {
+    type Error = Error;
+
+    fn try_from(stored: StoredCorner) -> Result<Self, Error> {
+        let StoredCorner {
+            point,
+            normal,
+            tangents,
+            curvatures,
+            torsion_difference,
+        } = stored;
+        Self::new(point, normal, tangents, curvatures)
+            .map(|corner| corner.with_torsion_difference(torsion_difference))
     }
 }
 

@@ -16,7 +16,11 @@ const LARGEST_CONDITION: f64 = 1e9;
 
 /// A curve over `[0, 1]` fitted to points by a quintic spline with uniform spans, in the sense of least squares.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredCurve")
+)]
 pub struct SampledCurve {
     coefficients: Vec<DVec3>,
     parameters: Vec<f64>,
@@ -243,6 +247,50 @@ impl SampledCurve {
         }
         let normal = Self::fit_at(self.parameters.clone(), normals, None, spans)?;
         GeodesicStrip::with_normal(self.clone(), normal)
+    }
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(rename = "SampledCurve")]
+struct StoredCurve {
+    coefficients: Vec<DVec3>,
+    parameters: Vec<f64>,
+    residual: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredCurve> for SampledCurve {
+    type Error = Error;
+
+    fn try_from(stored: StoredCurve) -> Result<Self, Error> {
+        let StoredCurve {
+            coefficients,
+            parameters,
+            residual,
+        } = stored;
+        if coefficients.len() <= DEGREE {
+            return Err(Error::TooFew {
+                what: "coefficients",
+                needed: DEGREE + 1,
+                got: coefficients.len(),
+            });
+        }
+        if let Some(index) = coefficients.iter().position(|c| !c.is_finite()) {
+            return Err(Error::NonFinite {
+                what: "coefficient",
+                index,
+            });
+        }
+        crate::spline::check_increasing(&parameters)?;
+        if !(residual >= 0.0 && residual.is_finite()) {
+            return Err(Error::Stored { what: "residual" });
+        }
+        Ok(Self {
+            coefficients,
+            parameters,
+            residual,
+        })
     }
 }
 

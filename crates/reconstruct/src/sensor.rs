@@ -28,7 +28,11 @@ pub enum SensorKind {
 
 /// How raw readings become body vectors: `body = matrix * (raw - offset)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredCalibration", into = "StoredCalibration")
+)]
 pub struct Calibration {
     offset: DVec3,
     matrix: DMat3,
@@ -144,6 +148,57 @@ impl Calibration {
     }
 }
 
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename = "Calibration")]
+struct StoredCalibration {
+    offset: DVec3,
+    matrix: DMat3,
+    /// None without a limit: not every format has infinities.
+    full_scale: Option<f64>,
+    magnitude: f64,
+}
+
+#[cfg(feature = "serde")]
+impl From<Calibration> for StoredCalibration {
+    fn from(calibration: Calibration) -> Self {
+        Self {
+            offset: calibration.offset,
+            matrix: calibration.matrix,
+            full_scale: Some(calibration.full_scale).filter(|limit| limit.is_finite()),
+            magnitude: calibration.magnitude,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredCalibration> for Calibration {
+    type Error = Error;
+
+    fn try_from(stored: StoredCalibration) -> Result<Self, Error> {
+        let StoredCalibration {
+            offset,
+            matrix,
+            full_scale,
+            magnitude,
+        } = stored;
+        let full_scale = full_scale.unwrap_or(f64::INFINITY);
+        let invertible = matrix.is_finite() && matrix.inverse().is_finite();
+        let positive = full_scale > 0.0 && magnitude > 0.0 && magnitude.is_finite();
+        if !(offset.is_finite() && invertible && positive) {
+            return Err(Error::Stored {
+                what: "numbers of a calibration",
+            });
+        }
+        Ok(Self {
+            offset,
+            matrix,
+            full_scale,
+            magnitude,
+        })
+    }
+}
+
 /// A reading weaker than this part of the expected magnitude is not the field: the ribbon falls, is shielded,
 /// or the sensor is dead. Sensors of this class err by a few hundredths.
 const SMALLEST_MAGNITUDE: f64 = 0.5;
@@ -223,10 +278,31 @@ impl Sensor {
 
 /// The directions of gravity and of the magnetic field in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredFields")
+)]
 pub struct WorldFields {
     up: DVec3,
     magnetic: DVec3,
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(rename = "WorldFields")]
+struct StoredFields {
+    up: DVec3,
+    magnetic: DVec3,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredFields> for WorldFields {
+    type Error = Error;
+
+    fn try_from(stored: StoredFields) -> Result<Self, Error> {
+        Self::new(stored.up, stored.magnetic)
+    }
 }
 
 impl WorldFields {

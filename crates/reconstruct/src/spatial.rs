@@ -29,7 +29,6 @@ pub enum TangentMethod {
 }
 
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Tangent {
     Projected(CubicSpline<DVec3>),
     Spherical(SphereSpline),
@@ -57,7 +56,11 @@ impl Tangent {
 /// # Ok::<(), reconstruct::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredRibbon", into = "StoredRibbon")
+)]
 pub struct SpatialRibbon {
     pub(crate) knots: Vec<f64>,
     tangents: Vec<DVec3>,
@@ -287,6 +290,38 @@ impl SpatialRibbon {
             rows.push(row.clone());
         }
         rows
+    }
+}
+
+/// The data of a ribbon; the rest is computed from them.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename = "SpatialRibbon")]
+struct StoredRibbon {
+    s: Vec<f64>,
+    tangents: Vec<DVec3>,
+    method: TangentMethod,
+    end: EndCondition,
+}
+
+#[cfg(feature = "serde")]
+impl From<SpatialRibbon> for StoredRibbon {
+    fn from(ribbon: SpatialRibbon) -> Self {
+        Self {
+            method: ribbon.method(),
+            s: ribbon.knots,
+            tangents: ribbon.tangents,
+            end: ribbon.end,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredRibbon> for SpatialRibbon {
+    type Error = Error;
+
+    fn try_from(stored: StoredRibbon) -> Result<Self, Error> {
+        Self::with_method(&stored.s, &stored.tangents, stored.method, stored.end)
     }
 }
 

@@ -23,7 +23,11 @@ pub struct Crossing {
 
 /// Ribbons in space that meet in their crossings.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredNetwork")
+)]
 pub struct RibbonNetwork {
     ribbons: Vec<SpatialRibbon>,
     origins: Vec<DVec3>,
@@ -189,6 +193,62 @@ impl RibbonNetwork {
             .fold(0.0, f64::max);
         let data = CornerData::new(point, normal, tangents, bends.map(|bend| bend.dot(unit)))?;
         Ok((data, sideways))
+    }
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(rename = "RibbonNetwork")]
+struct StoredNetwork {
+    ribbons: Vec<SpatialRibbon>,
+    origins: Vec<DVec3>,
+    crossings: Vec<Crossing>,
+    gap_before: f64,
+    gap: f64,
+    largest_turn: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredNetwork> for RibbonNetwork {
+    type Error = Error;
+
+    fn try_from(stored: StoredNetwork) -> Result<Self, Error> {
+        /// Gap accepted, in parts of the one that was: the numbers may have lost their last digit.
+        const STORED: f64 = 10.0;
+        let StoredNetwork {
+            ribbons,
+            origins,
+            crossings,
+            gap_before,
+            gap,
+            largest_turn,
+        } = stored;
+        check(&ribbons, &crossings)?;
+        let finite = [gap_before, gap, largest_turn]
+            .iter()
+            .all(|x| x.is_finite());
+        if origins.len() != ribbons.len() || !finite {
+            return Err(Error::Stored {
+                what: "origins of a network",
+            });
+        }
+        let size = ribbons.iter().map(length).fold(0.0, f64::max);
+        let network = Self {
+            ribbons,
+            origins,
+            crossings,
+            gap_before,
+            gap,
+            largest_turn,
+        };
+        let mut gaps = network.gaps()?.into_iter().map(DVec3::length);
+        if gaps.all(|gap| gap <= STORED * CLOSED * size) {
+            Ok(network)
+        } else {
+            Err(Error::Stored {
+                what: "crossings of a network",
+            })
+        }
     }
 }
 

@@ -48,6 +48,11 @@ const NEAR_ZERO: f64 = 0.1;
 /// # Ok::<(), reconstruct::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredLayout", into = "StoredLayout")
+)]
 pub struct RibbonLayout {
     sensors: Vec<Sensor>,
     world: WorldFields,
@@ -57,6 +62,33 @@ pub struct RibbonLayout {
     magnetic: Channel,
     /// For every magnetometer, how to evaluate gravity at its place.
     gravity_at_magnetometers: Vec<Stencil>,
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename = "RibbonLayout")]
+struct StoredLayout {
+    sensors: Vec<Sensor>,
+    world: WorldFields,
+}
+
+#[cfg(feature = "serde")]
+impl From<RibbonLayout> for StoredLayout {
+    fn from(layout: RibbonLayout) -> Self {
+        Self {
+            sensors: layout.sensors,
+            world: layout.world,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredLayout> for RibbonLayout {
+    type Error = Error;
+
+    fn try_from(stored: StoredLayout) -> Result<Self, Error> {
+        Self::new(stored.sensors, stored.world)
+    }
 }
 
 /// Buffers of one reconstruction, to be reused.
