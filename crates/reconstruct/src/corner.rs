@@ -4,6 +4,7 @@
 //! curvatures; the torsions follow from the crossing identity.
 
 use crate::Error;
+use crate::spatial::unit;
 use glam::DVec3;
 
 /// The four corners `[i][j]` of a rectangle at `u = i`, `v = j`.
@@ -57,12 +58,12 @@ impl CornerData {
         if !finite || !curvatures.iter().all(|k| k.is_finite()) {
             return refuse("a number is not finite", f64::NAN);
         }
-        let Some(normal) = normal.try_normalize() else {
+        let Some(normal) = unit(normal) else {
             return refuse("the normal is zero", 0.0);
         };
         let mut units = [DVec3::ZERO; 2];
-        for (unit, tangent) in units.iter_mut().zip(tangents) {
-            let Some(direction) = tangent.try_normalize() else {
+        for (projected, tangent) in units.iter_mut().zip(tangents) {
+            let Some(direction) = unit(tangent) else {
                 return refuse("a tangent is zero", 0.0);
             };
             let slip = direction.dot(normal);
@@ -72,7 +73,7 @@ impl CornerData {
                     slip,
                 );
             }
-            *unit = (direction - normal * slip).normalize();
+            *projected = (direction - normal * slip).normalize();
         }
         let sine = units[0].cross(units[1]).dot(normal);
         if sine.abs() < PARALLEL {
@@ -94,6 +95,9 @@ impl CornerData {
     }
 
     /// The same corner with another split of the torsions: that of the boundary along `u` minus that along `v`.
+    ///
+    /// A difference of zero, that of a new corner, asks for nothing: constructions that cannot choose the torsions freely
+    /// ([`rational_quintic_boundaries`](crate::rational_quintic_boundaries)) may then split them as they need.
     #[must_use]
     pub fn with_torsion_difference(self, difference: f64) -> Self {
         Self {
@@ -132,6 +136,12 @@ impl CornerData {
         let [e1, e2] = self.tangents;
         let [k1, k2] = self.curvatures;
         (k2 - k1) * e1.dot(e2) / e1.cross(e2).dot(self.normal)
+    }
+
+    /// The torsion of the boundary along `u` minus that along `v` that was asked for.
+    #[must_use]
+    pub fn torsion_difference(&self) -> f64 {
+        self.torsion_difference
     }
 
     /// The torsions of the boundaries along `u` and `v`: equal unless another split was asked for.

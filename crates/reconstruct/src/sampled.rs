@@ -3,6 +3,7 @@
 //! Section 3.4 of the thesis chapter: of computed geodesics "only numerical data are available", and the surface
 //! construction "requires the smoothing of the binormal vectors".
 
+use crate::spatial::unit;
 use crate::{Curve, Error, GeodesicStrip, Series, VectorSeries};
 use core::array::from_fn;
 use glam::DVec3;
@@ -87,7 +88,7 @@ impl SampledCurve {
                     index,
                 });
             }
-            units.push(tangent.try_normalize().ok_or(Error::ZeroVector {
+            units.push(unit(*tangent).ok_or(Error::ZeroVector {
                 what: "tangent",
                 index,
             })?);

@@ -4,6 +4,7 @@
 //! angle to the vertical; the second one three-axis accelerometers alternating with two-axis magnetometers.
 
 use crate::Error;
+use crate::spatial::unit;
 use core::f64::consts::PI;
 use glam::{DMat3, DVec3};
 
@@ -311,15 +312,15 @@ impl WorldFields {
     /// # Errors
     /// [`Error::NonFinite`], [`Error::ZeroVector`], or [`Error::ParallelFields`] when the two are parallel.
     pub fn new(up: DVec3, magnetic: DVec3) -> Result<Self, Error> {
-        let unit = |what, index, v: DVec3| {
+        let checked = |what, index, v: DVec3| {
             if !v.is_finite() {
                 return Err(Error::NonFinite { what, index });
             }
-            v.try_normalize().ok_or(Error::ZeroVector { what, index })
+            unit(v).ok_or(Error::ZeroVector { what, index })
         };
         let (up, magnetic) = (
-            unit("world direction", 0, up)?,
-            unit("world direction", 1, magnetic)?,
+            checked("world direction", 0, up)?,
+            checked("world direction", 1, magnetic)?,
         );
         let sine = up.cross(magnetic).length();
         if sine < PARALLEL_FIELDS {

@@ -330,6 +330,17 @@ pub(crate) fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
 
+/// The direction of a finite vector of any length; none of zero.
+pub(crate) fn unit(v: DVec3) -> Option<DVec3> {
+    let largest = v.abs().max_element();
+    // Squares of such coordinates are ordinary numbers.
+    if (1e-100..=1e100).contains(&largest) {
+        v.try_normalize()
+    } else {
+        (v / largest).try_normalize()
+    }
+}
+
 /// The tangents normalised.
 ///
 /// # Errors
@@ -343,7 +354,7 @@ pub(crate) fn unit_tangents(tangents: &[DVec3]) -> Result<Vec<DVec3>, Error> {
                 index,
             });
         }
-        let unit = tangent.try_normalize().ok_or(Error::ZeroVector {
+        let unit = unit(*tangent).ok_or(Error::ZeroVector {
             what: "tangent",
             index,
         })?;

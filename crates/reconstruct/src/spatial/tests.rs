@@ -177,6 +177,11 @@ fn covariance_agrees_with_simulation() {
 #[test]
 fn hostile_data() {
     let s = [0.0, 1.0, 2.0];
+    for size in [1e-300, 1e300] {
+        let long = [DVec3::new(3.0, 4.0, 0.0) * size, DVec3::Y, DVec3::Z];
+        let ribbon = SpatialRibbon::new(&s, &long).unwrap();
+        assert!((ribbon.tangents()[0] - DVec3::new(0.6, 0.8, 0.0)).length() < 1e-15);
+    }
     let bad = |tangents: [DVec3; 3]| SpatialRibbon::new(&s, &tangents);
     assert!(matches!(
         bad([DVec3::X, -DVec3::X, DVec3::Y]),
