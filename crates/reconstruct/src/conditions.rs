@@ -156,6 +156,8 @@ impl BoundaryReport {
 /// the rounding of third derivatives, and small enough that the geodesic curvature a mismatch leaves (some
 /// hundredths of it) stays below 1e-8.
 pub const CONDITION_TOLERANCE: f64 = 1e-8;
+/// Rounding of a coordinate of a curve's end, relative to it.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Sine below which two curves at a corner count as touching.
 const PARALLEL: f64 = 1e-6;
 /// Curvature times size below which a corner counts as an inflection.
@@ -245,8 +247,9 @@ fn corner_violation(
 ) -> Result<f64, Violation> {
     let [p, q] = curves.map(|(_, sample)| sample.point[0]);
     let distance = p.distance(q);
+    let rounding = ROUNDING * p.abs().max_element();
     // Negated, so that NaN counts as wrong.
-    if !(distance <= tolerance * p.abs().max_element().max(size)) {
+    if !(distance <= tolerance * size + rounding) {
         return Err(Violation::CornerMismatch { corner, distance });
     }
     let mut tangents = [DVec3::ZERO; 2];
