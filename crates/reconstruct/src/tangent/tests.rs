@@ -191,3 +191,14 @@ fn a_lost_field_is_noticed_with_two_axes() {
         }
     }
 }
+
+#[test]
+fn a_misplaced_sensor_is_counted_among_all() {
+    let kinds = [SensorKind::Accelerometer, SensorKind::Magnetometer];
+    let place = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.05];
+    let sensors = (0..8).map(|i| Sensor::new(place[i], kinds[i % 2]));
+    assert!(matches!(
+        RibbonLayout::new(sensors, WorldFields::with_dip(1.08).unwrap()),
+        Err(Error::NotIncreasing { index: 7, .. })
+    ));
+}
