@@ -414,8 +414,20 @@ mod tests {
             (TangentMethod::SphericalSpline, EndCondition::NotAKnot),
         ] {
             let ribbons = vec![bent(0.0, method, end), bent(0.1, method, end)];
-            let network = RibbonNetwork::new(ribbons, crossings.to_vec()).unwrap();
+            let network = RibbonNetwork::new(ribbons.clone(), crossings.to_vec()).unwrap();
             assert!(network.gap_before() > 1e-4, "{}", network.gap_before());
+            // A crossing listed twice, also the other way round, says nothing new.
+            let mut twice = crossings.to_vec();
+            let [s, t] = crossings[0].s;
+            twice.extend([
+                crossings[1],
+                Crossing {
+                    ribbons: [1, 0],
+                    s: [t, s],
+                },
+            ]);
+            let again = RibbonNetwork::new(ribbons, twice).unwrap();
+            assert_eq!(again.ribbons(), network.ribbons());
             for ribbon in network.ribbons() {
                 assert_eq!(ribbon.method(), method);
                 let again = SpatialRibbon::with_method(
