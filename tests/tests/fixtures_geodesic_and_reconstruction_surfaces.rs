@@ -387,7 +387,9 @@ fn two_curve_surface(case: &Case<'_>) {
     let Some(strips) = or_refuse(case, strips) else {
         return;
     };
-    let surface = TwoCurveSurface::from_oriented(strips).with_fields([field(0), field(1)]);
+    let surface = TwoCurveSurface::from_oriented(strips)
+        .unwrap()
+        .with_fields([field(0), field(1)]);
     let uv = places(case, "uv");
     case.compare(
         "points",

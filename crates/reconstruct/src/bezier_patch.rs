@@ -20,6 +20,11 @@ use glam::DVec3;
 /// A plane curve's `across` is the normal of its plane, so its inflections do no harm; neither do isolated
 /// inflections of other curves.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredStrip", into = "StoredStrip")
+)]
 pub struct BezierStrip {
     curve: BezierCurve<DVec3>,
     position: Vec<DVec3>,
@@ -92,6 +97,30 @@ impl BezierStrip {
     #[must_use]
     pub fn curve(&self) -> &BezierCurve<DVec3> {
         &self.curve
+    }
+}
+
+/// A strip by its curve; the rest is computed from it.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename = "BezierStrip")]
+struct StoredStrip {
+    curve: BezierCurve<DVec3>,
+}
+
+#[cfg(feature = "serde")]
+impl From<BezierStrip> for StoredStrip {
+    fn from(strip: BezierStrip) -> Self {
+        Self { curve: strip.curve }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredStrip> for BezierStrip {
+    type Error = Error;
+
+    fn try_from(stored: StoredStrip) -> Result<Self, Error> {
+        Self::new(stored.curve)
     }
 }
 

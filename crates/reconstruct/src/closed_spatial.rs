@@ -1,6 +1,8 @@
 //! Closed ribbons in space: the closing error is distributed over the tangents.
 
 use crate::integrate::{ACCURACY, gauss_step, positions};
+#[cfg(feature = "serde")]
+use crate::planar::STORED_CLOSED;
 use crate::planar::{CLOSED, CLOSING_STEPS};
 use crate::spatial::{outer, projected, unit_tangents};
 use crate::spline::check_increasing;
@@ -9,7 +11,11 @@ use glam::{DMat3, DVec3};
 
 /// A closed space ribbon: the tangents adjusted as little as possible so that the curve closes.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredRibbon", into = "StoredRibbon")
+)]
 pub struct ClosedSpatialRibbon {
     spline: CubicSpline<DVec3>,
     points: Vec<DVec3>,
@@ -122,10 +128,62 @@ impl ClosedSpatialRibbon {
         &self.points
     }
 
-    /// The unit tangent at `s`.
+    /// The unit tangent at `s`, periodic with the length.
     #[must_use]
     pub fn tangent(&self, s: f64) -> DVec3 {
-        self.spline.value(s).normalize_or_zero()
+        self.spline.periodic_value(s).normalize_or_zero()
+    }
+}
+
+/// A closed ribbon without its points, which are computed again.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename = "ClosedSpatialRibbon")]
+struct StoredRibbon {
+    spline: CubicSpline<DVec3>,
+    closing_error: DVec3,
+    largest_adjustment: f64,
+}
+
+#[cfg(feature = "serde")]
+impl From<ClosedSpatialRibbon> for StoredRibbon {
+    fn from(ribbon: ClosedSpatialRibbon) -> Self {
+        Self {
+            spline: ribbon.spline,
+            closing_error: ribbon.closing_error,
+            largest_adjustment: ribbon.largest_adjustment,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredRibbon> for ClosedSpatialRibbon {
+    type Error = Error;
+
+    fn try_from(stored: StoredRibbon) -> Result<Self, Error> {
+        let StoredRibbon {
+            spline,
+            closing_error,
+            largest_adjustment,
+        } = stored;
+        let spline = projected(CubicSpline::periodic(spline.knots(), spline.values())?)?;
+        let knots = spline.knots();
+        let n = knots.len() - 1;
+        let length = knots[n] - knots[0];
+        let direction = |s: f64| spline.value(s).normalize_or_zero();
+        let (points, _) = positions(knots, &direction, ACCURACY * length)?;
+        let closed = points[n].length() <= STORED_CLOSED * length;
+        if !(closed && closing_error.is_finite() && largest_adjustment.is_finite()) {
+            return Err(Error::Stored {
+                what: "tangents of a closed ribbon",
+            });
+        }
+        Ok(Self {
+            spline,
+            points,
+            closing_error,
+            largest_adjustment,
+        })
     }
 }
 
@@ -154,6 +212,9 @@ mod tests {
         assert!(ribbon.closing_error().length() > 1e-4);
         assert!(ribbon.points()[n as usize].length() < 5e-12);
         assert!(ribbon.largest_adjustment() < 0.2);
+        for around in [length, -length, 3.0 * length] {
+            assert!((ribbon.tangent(0.3 + around) - ribbon.tangent(0.3)).length() < 1e-13);
+        }
         let straight = ClosedSpatialRibbon::new(&s, &vec![DVec3::X; n as usize], length);
         assert!(matches!(straight, Err(Error::NoConvergence { .. })));
     }

@@ -156,6 +156,8 @@ impl BoundaryReport {
 /// the rounding of third derivatives, and small enough that the geodesic curvature a mismatch leaves (some
 /// hundredths of it) stays below 1e-8.
 pub const CONDITION_TOLERANCE: f64 = 1e-8;
+/// Rounding of a coordinate of a curve's end, relative to it.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Sine below which two curves at a corner count as touching.
 const PARALLEL: f64 = 1e-6;
 /// Curvature times size below which a corner counts as an inflection.
@@ -245,8 +247,9 @@ fn corner_violation(
 ) -> Result<f64, Violation> {
     let [p, q] = curves.map(|(_, sample)| sample.point[0]);
     let distance = p.distance(q);
+    let rounding = ROUNDING * p.abs().max_element();
     // Negated, so that NaN counts as wrong.
-    if !(distance <= tolerance * p.abs().max_element().max(size)) {
+    if !(distance <= tolerance * size + rounding) {
         return Err(Violation::CornerMismatch { corner, distance });
     }
     let mut tangents = [DVec3::ZERO; 2];
@@ -325,25 +328,7 @@ const LIMIT: f64 = 1e-6;
 fn count_reversals<S: Strip>(strips: &[S], around: &[(usize, bool)], report: &mut BoundaryReport) {
     let mut ends: Vec<[DVec3; 2]> = Vec::with_capacity(around.len());
     for &(side, reversed) in around {
-        let normal = |t: f64| principal_normal(&strips[side], t);
-        let mut samples: Vec<(f64, DVec3)> = (0..=FIRST_SAMPLES)
-            .map(|i| i as f64 / FIRST_SAMPLES as f64)
-            .map(|t| (t, normal(t)))
-            .collect();
-        let last = samples.len() - 1;
-        // At an end or a probe that is itself an inflection take the limit from inside.
-        for (i, (t, n)) in samples.iter_mut().enumerate() {
-            if *n == DVec3::ZERO {
-                *t += if i == last { -LIMIT } else { LIMIT };
-                *n = normal(*t);
-            }
-        }
-        for pair in samples.windows(2) {
-            follow(&normal, pair[0], pair[1], BISECTIONS, &mut |t| {
-                report.inflections.push((side, t))
-            });
-        }
-        let [start, end] = [samples[0].1, samples[last].1];
+        let [start, end] = reversals(&strips[side], &mut |t| report.inflections.push((side, t)));
         ends.push(if reversed { [end, start] } else { [start, end] });
     }
     let corners = ends
@@ -352,6 +337,43 @@ fn count_reversals<S: Strip>(strips: &[S], around: &[(usize, bool)], report: &mu
         .filter(|(a, b)| a[1].dot(b[0]) < 0.0)
         .count();
     report.reversals = report.inflections.len() + corners;
+}
+
+/// Finds the reversals of the principal normal along a strip; returns the normals at its ends.
+fn reversals<S: Strip>(strip: &S, found: &mut impl FnMut(f64)) -> [DVec3; 2] {
+    let normal = |t: f64| principal_normal(strip, t);
+    let mut samples: Vec<(f64, DVec3)> = probes().map(|t| (t, normal(t))).collect();
+    let last = samples.len() - 1;
+    // At an end or a probe that is itself an inflection take the limit from inside.
+    for (i, (t, n)) in samples.iter_mut().enumerate() {
+        if *n == DVec3::ZERO {
+            *t += if i == last { -LIMIT } else { LIMIT };
+            *n = normal(*t);
+        }
+    }
+    for pair in samples.windows(2) {
+        follow(&normal, pair[0], pair[1], BISECTIONS, found);
+    }
+    [samples[0].1, samples[last].1]
+}
+
+fn probes() -> impl Iterator<Item = f64> {
+    (0..=FIRST_SAMPLES).map(|i| i as f64 / FIRST_SAMPLES as f64)
+}
+
+/// Refuses a strip whose `across` reverses, or is undefined, at an inflection of its curve.
+pub(crate) fn refuse_inflections<S: Strip>(strip: &S, side: usize) -> Result<(), Error> {
+    if strip.passes_inflections() {
+        return Ok(());
+    }
+    let mut first = probes().find(|t| principal_normal(strip, *t) == DVec3::ZERO);
+    reversals(strip, &mut |t| {
+        first = Some(first.map_or(t, |before| before.min(t)))
+    });
+    match first {
+        Some(t) => Err(Error::Inflection { side, t }),
+        None => Ok(()),
+    }
 }
 
 /// Finds the reversals of a unit vector between two parameters.

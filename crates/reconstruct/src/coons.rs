@@ -444,3 +444,36 @@ impl<S: Strip> Surface for CoonsPatch<S> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::AnalyticCurve;
+
+    /// The tolerance is that of the boundary's size, wherever it lies.
+    #[test]
+    fn a_gap_far_from_the_origin_is_a_gap() {
+        let corners = [[0.0, 0.0], [1.0, 0.2], [0.3, 0.9], [1.25, 1.15]];
+        let far = 1e9;
+        let side = |a: usize, b: usize, gap: f64| {
+            GeodesicStrip::new(AnalyticCurve::new(move |t| {
+                let [angle, height] =
+                    [0, 1].map(|k| t * (corners[b][k] - corners[a][k]) + corners[a][k]);
+                [angle.cos() + far, angle.sin() + far, height + (far + gap)]
+            }))
+            .unwrap()
+        };
+        let with_gap = |gap: f64| {
+            Rectangle::new([
+                side(0, 1, 0.0),
+                side(0, 2, 0.0),
+                side(2, 3, gap),
+                side(1, 3, 0.0),
+            ])
+        };
+        assert!(with_gap(0.0).is_ok());
+        for gap in [5.0, 1e-4] {
+            assert!(matches!(with_gap(gap), Err(Error::Conditions(_))), "{gap}");
+        }
+    }
+}

@@ -4,6 +4,7 @@
 //! curvatures; the torsions follow from the crossing identity.
 
 use crate::Error;
+use crate::spatial::unit;
 use glam::DVec3;
 
 /// The four corners `[i][j]` of a rectangle at `u = i`, `v = j`.
@@ -11,7 +12,11 @@ pub type Corners = [[CornerData; 2]; 2];
 
 /// What is known of a surface at a corner of a patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredCorner")
+)]
 pub struct CornerData {
     point: DVec3,
     normal: DVec3,
@@ -53,12 +58,12 @@ impl CornerData {
         if !finite || !curvatures.iter().all(|k| k.is_finite()) {
             return refuse("a number is not finite", f64::NAN);
         }
-        let Some(normal) = normal.try_normalize() else {
+        let Some(normal) = unit(normal) else {
             return refuse("the normal is zero", 0.0);
         };
         let mut units = [DVec3::ZERO; 2];
-        for (unit, tangent) in units.iter_mut().zip(tangents) {
-            let Some(direction) = tangent.try_normalize() else {
+        for (projected, tangent) in units.iter_mut().zip(tangents) {
+            let Some(direction) = unit(tangent) else {
                 return refuse("a tangent is zero", 0.0);
             };
             let slip = direction.dot(normal);
@@ -68,7 +73,7 @@ impl CornerData {
                     slip,
                 );
             }
-            *unit = (direction - normal * slip).normalize();
+            *projected = (direction - normal * slip).normalize();
         }
         let sine = units[0].cross(units[1]).dot(normal);
         if sine.abs() < PARALLEL {
@@ -90,6 +95,9 @@ impl CornerData {
     }
 
     /// The same corner with another split of the torsions: that of the boundary along `u` minus that along `v`.
+    ///
+    /// A difference of zero, that of a new corner, asks for nothing: constructions that cannot choose the torsions freely
+    /// ([`rational_quintic_boundaries`](crate::rational_quintic_boundaries)) may then split them as they need.
     #[must_use]
     pub fn with_torsion_difference(self, difference: f64) -> Self {
         Self {
@@ -130,6 +138,12 @@ impl CornerData {
         (k2 - k1) * e1.dot(e2) / e1.cross(e2).dot(self.normal)
     }
 
+    /// The torsion of the boundary along `u` minus that along `v` that was asked for.
+    #[must_use]
+    pub fn torsion_difference(&self) -> f64 {
+        self.torsion_difference
+    }
+
     /// The torsions of the boundaries along `u` and `v`: equal unless another split was asked for.
     #[must_use]
     pub fn torsions(&self) -> [f64; 2] {
@@ -138,6 +152,34 @@ impl CornerData {
             half + 0.5 * self.torsion_difference,
             half - 0.5 * self.torsion_difference,
         ]
+    }
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(rename = "CornerData")]
+struct StoredCorner {
+    point: DVec3,
+    normal: DVec3,
+    tangents: [DVec3; 2],
+    curvatures: [f64; 2],
+    torsion_difference: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredCorner> for CornerData {
+    type Error = Error;
+
+    fn try_from(stored: StoredCorner) -> Result<Self, Error> {
+        let StoredCorner {
+            point,
+            normal,
+            tangents,
+            curvatures,
+            torsion_difference,
+        } = stored;
+        Self::new(point, normal, tangents, curvatures)
+            .map(|corner| corner.with_torsion_difference(torsion_difference))
     }
 }
 

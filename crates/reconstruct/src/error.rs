@@ -145,6 +145,12 @@ pub enum Error {
         /// How many steps were made.
         steps: usize,
     },
+    /// Numbers read back from storage contradict each other.
+    #[error("the stored {what} do not belong to the rest of the data")]
+    Stored {
+        /// What does not fit.
+        what: &'static str,
+    },
     /// Something this crate does not do.
     #[error("{what} are not available")]
     Unsupported {

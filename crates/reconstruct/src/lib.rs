@@ -58,7 +58,8 @@
 //! boundary is tested; a regular interior is measured ([`CoonsPatch::regularity`]), not promised.
 //!
 //! # Features
-//! `serde` (off by default): `Serialize` and `Deserialize` for the value types.
+//! `serde` (off by default): `Serialize` and `Deserialize` for the value types. What is read passes the checks of the
+//! constructors.
 //!
 //! # References
 //! - N. Sprynski, N. Szafran, B. Lacolle, L. Biard, *Surface reconstruction via geodesic interpolation*, CAD 40, 2008;

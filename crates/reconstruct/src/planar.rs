@@ -24,7 +24,11 @@ const HALF_TURN_MARGIN: f64 = 1e-9;
 /// # Ok::<(), reconstruct::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredRibbon", into = "StoredRibbon")
+)]
 pub struct PlanarRibbon {
     angle: CubicSpline<f64>,
     end: EndCondition,
@@ -123,7 +127,8 @@ impl PlanarRibbon {
 
     /// The covariance of the position at each datum, when the angles carry independent errors of standard
     /// deviation `sigma` (radians). First order: the position is linear in small errors of the angles,
-    /// `dx(s) = sum_j dalpha_j * integral of phi_j (-sin, cos)`, `phi_j` the cardinal splines.
+    /// `dx(s) = sum_j dalpha_j * integral of phi_j (-sin, cos)`, `phi_j` the cardinal splines. Only the square of
+    /// `sigma` enters, so its sign does not matter; a `sigma` that is no number gives NaN.
     #[must_use]
     pub fn covariance(&self, sigma: f64) -> Vec<DMat2> {
         let knots = self.angle.knots();
@@ -138,6 +143,38 @@ impl PlanarRibbon {
             }
         }
         covariance
+    }
+}
+
+/// The data of a ribbon; the rest is computed from them.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename = "PlanarRibbon")]
+struct StoredRibbon {
+    s: Vec<f64>,
+    angles: Vec<f64>,
+    end: EndCondition,
+    accuracy: f64,
+}
+
+#[cfg(feature = "serde")]
+impl From<PlanarRibbon> for StoredRibbon {
+    fn from(ribbon: PlanarRibbon) -> Self {
+        Self {
+            s: ribbon.angle.knots().to_vec(),
+            angles: ribbon.angle.values().to_vec(),
+            end: ribbon.end,
+            accuracy: ribbon.accuracy,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredRibbon> for PlanarRibbon {
+    type Error = Error;
+
+    fn try_from(stored: StoredRibbon) -> Result<Self, Error> {
+        Self::with_accuracy(&stored.s, &stored.angles, stored.end, stored.accuracy)
     }
 }
 
@@ -184,7 +221,11 @@ pub(crate) fn unwrap_angles(angles: &[f64]) -> Result<Vec<f64>, Error> {
 
 /// A closed plane ribbon: the angles adjusted as little as possible so that the curve closes.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredClosedRibbon", into = "StoredClosedRibbon")
+)]
 pub struct ClosedPlanarRibbon {
     angle: CubicSpline<f64>,
     /// Full turns of the tangent times 2 pi, over the length.
@@ -245,13 +286,78 @@ impl ClosedPlanarRibbon {
         &self.points
     }
 
-    /// The tangent angle at `s`, radians.
+    /// The tangent angle at `s`, radians; once around it grows by the full turns of the curve.
     #[must_use]
     pub fn angle(&self, s: f64) -> f64 {
-        self.angle.value(s) + self.turning_rate * (s - self.angle.knots()[0])
+        self.angle.periodic_value(s) + self.turning_rate * (s - self.angle.knots()[0])
     }
 }
 
+/// A closed ribbon without its points, which are computed again.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename = "ClosedPlanarRibbon")]
+struct StoredClosedRibbon {
+    angle: CubicSpline<f64>,
+    turning_rate: f64,
+    closing_error: DVec2,
+    largest_adjustment: f64,
+}
+
+#[cfg(feature = "serde")]
+impl From<ClosedPlanarRibbon> for StoredClosedRibbon {
+    fn from(ribbon: ClosedPlanarRibbon) -> Self {
+        Self {
+            angle: ribbon.angle,
+            turning_rate: ribbon.turning_rate,
+            closing_error: ribbon.closing_error,
+            largest_adjustment: ribbon.largest_adjustment,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredClosedRibbon> for ClosedPlanarRibbon {
+    type Error = Error;
+
+    fn try_from(stored: StoredClosedRibbon) -> Result<Self, Error> {
+        let StoredClosedRibbon {
+            angle,
+            turning_rate,
+            closing_error,
+            largest_adjustment,
+        } = stored;
+        let angle = CubicSpline::periodic(angle.knots(), angle.values())?;
+        let knots = angle.knots();
+        let (start, n) = (knots[0], knots.len() - 1);
+        let length = knots[n] - start;
+        let turns = turning_rate * length / TAU;
+        let whole = (turns - turns.round()).abs() < CLOSED;
+        if !(whole && closing_error.is_finite() && largest_adjustment.is_finite()) {
+            return Err(Error::Stored {
+                what: "turns of a closed ribbon",
+            });
+        }
+        let direction = |s: f64| DVec2::from_angle(angle.value(s) + turning_rate * (s - start));
+        let (points, _) = positions(knots, &direction, ACCURACY * length)?;
+        if !(points[n].length() <= STORED_CLOSED * length) {
+            return Err(Error::Stored {
+                what: "angles of a closed ribbon",
+            });
+        }
+        Ok(Self {
+            angle,
+            turning_rate,
+            points,
+            closing_error,
+            largest_adjustment,
+        })
+    }
+}
+
+/// Closing gap accepted of a stored ribbon, whose numbers may have lost their last digit.
+#[cfg(feature = "serde")]
+pub(crate) const STORED_CLOSED: f64 = 10.0 * CLOSED;
 /// Closing gap accepted, relative to the length: rounding of the integration.
 pub(crate) const CLOSED: f64 = 1e-12;
 /// Newton steps allowed for closing; quadratic convergence needs about five.

@@ -3,7 +3,7 @@
 //! Section 3.7 of the thesis chapter. C2 is to be checked afterwards: a curve may inflect between its ends.
 
 use crate::Error;
-use crate::corner::{Corners, CurveEnd, SIDES, curve_ends, four};
+use crate::corner::{CornerData, Corners, CurveEnd, SIDES, curve_ends, four};
 use bezier_mass::{BezierCurve, MassPoint};
 use core::array::from_fn;
 use glam::DVec3;
@@ -37,7 +37,7 @@ impl EndInvariants {
 /// distance of `p2` from the line `p0 p1`, `c` the signed distance of `p3` from the plane `p0 p1 p2`.
 ///
 /// # Errors
-/// [`Error::NonFinite`], [`Error::OutOfRange`] for a weight that is not positive, [`Error::ZeroVector`] for
+/// [`Error::NonFinite`] for points, and for results, that are not finite; [`Error::OutOfRange`] for a weight that is not positive, [`Error::ZeroVector`] for
 /// coinciding end points, [`Error::Inflection`] for three collinear ones.
 pub fn quintic_end_invariants(
     points: &[DVec3; 6],
@@ -66,7 +66,12 @@ fn invariants_at_start(p: &[DVec3; 6], w: &[f64; 6], end: usize) -> Result<EndIn
             index,
         });
     }
-    let (first, second) = (p[1] - p[0], p[2] - p[0]);
+    // In units of the largest coordinate, so that no product leaves the range.
+    let legs = [1, 2, 3].map(|k| p[k] - p[0]);
+    let size = legs
+        .iter()
+        .fold(0.0, |m: f64, leg| m.max(leg.abs().max_element()));
+    let [first, second, third] = legs.map(|leg| if size > 0.0 { leg / size } else { leg });
     let a = first.length();
     if a == 0.0 {
         return Err(Error::ZeroVector {
@@ -82,11 +87,16 @@ fn invariants_at_start(p: &[DVec3; 6], w: &[f64; 6], end: usize) -> Result<EndIn
             t: end as f64,
         });
     }
-    let c = (p[3] - p[0]).dot(across.normalize());
-    Ok(EndInvariants {
-        curvature: 0.8 * w[0] * w[2] / (w[1] * w[1]) * h / (a * a),
-        torsion: 0.6 * w[0] * w[3] / (w[1] * w[2]) * c / (a * h),
-    })
+    let c = third.dot(across.normalize());
+    let curvature = 0.8 * (w[0] / w[1]) * (w[2] / w[1]) * h / (a * a) / size;
+    let torsion = 0.6 * (w[0] / w[1]) * (w[3] / w[2]) * c / (a * h) / size;
+    if !(curvature.is_finite() && torsion.is_finite()) {
+        return Err(Error::NonFinite {
+            what: "curvature or torsion at end",
+            index: end,
+        });
+    }
+    Ok(EndInvariants { curvature, torsion })
 }
 
 /// The weights `1, w1, .., w4, 1` with which a rational quintic has the wanted curvatures and torsions at its ends:
@@ -146,11 +156,12 @@ const LEGS: [[f64; 2]; 6] = [
 /// Four rational quintic boundaries with the given corner data: points, tangent planes, osculating planes and
 /// curvatures at the corners. Control points are laid out in the osculating planes so that the curvatures are met
 /// with unit weights. The inner ones are slid along the end tangents to where unit weights give the torsions too, if
-/// that is not far away; otherwise the torsions are split at each corner so that their signs fit. The weights follow.
+/// that is not far away; otherwise the torsions are split at each corner so that their signs fit, unless the corner asks
+/// for a split ([`CornerData::with_torsion_difference`]). The weights follow.
 ///
 /// # Errors
-/// [`Error::CornerData`] for two corners at one point; [`Error::TorsionSign`] when at some corner neither any
-/// split nor any of the layouts tried gives torsions of the right sum and signs.
+/// [`Error::CornerData`] for two corners at one point; [`Error::TorsionSign`] when at some corner no split, or the one
+/// asked for, has with any of the layouts tried the right sum and signs.
 pub fn rational_quintic_boundaries(corners: &Corners) -> Result<[BezierCurve<DVec3>; 4], Error> {
     let mut refusal = Error::TorsionSign {
         end: 0,
@@ -195,7 +206,7 @@ fn quintic_layout(
             let (along_u, along_v) = (2 * j, 1 + 2 * i);
             let naturals =
                 [natural[along_u][i], natural[along_v][j]].map(EndInvariants::settled_torsion);
-            let torsions = split_torsion(corners[i][j].torsion_sum(), naturals)?;
+            let torsions = split_torsion(&corners[i][j], naturals)?;
             wanted[along_u][i].torsion = torsions[0];
             wanted[along_v][j].torsion = torsions[1];
         }
@@ -269,10 +280,12 @@ fn quintic_control(
     ]
 }
 
-/// Torsions with the wanted sum, each of the sign that its control points give.
-fn split_torsion(sum: f64, natural: [f64; 2]) -> Result<[f64; 2], Error> {
-    let [a, b] = natural;
-    let split = if a == 0.0 {
+/// The torsions that the corner asks for, or else some with the wanted sum, each of the sign that its control points give.
+fn split_torsion(corner: &CornerData, natural: [f64; 2]) -> Result<[f64; 2], Error> {
+    let (sum, [a, b]) = (corner.torsion_sum(), natural);
+    let split = if corner.torsion_difference() != 0.0 {
+        corner.torsions()
+    } else if a == 0.0 {
         [0.0, sum]
     } else if b == 0.0 {
         [sum, 0.0]
@@ -294,4 +307,32 @@ fn split_torsion(sum: f64, natural: [f64; 2]) -> Result<[f64; 2], Error> {
         }
     }
     Ok(split)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn invariants_scale_with_the_points() {
+        let points = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [2.0, 0.5, 0.0],
+            [3.0, 1.0, 0.4],
+            [4.0, 1.2, 1.0],
+            [5.0, 1.0, 1.5],
+        ]
+        .map(DVec3::from_array);
+        let plain = quintic_end_invariants(&points, &[1.0; 6]).unwrap();
+        for scale in [1e-170, 1e170] {
+            let scaled = quintic_end_invariants(&points.map(|p| p * scale), &[1.0; 6]).unwrap();
+            for (a, b) in scaled.iter().zip(&plain) {
+                assert!((a.curvature * scale / b.curvature - 1.0).abs() < 1e-14);
+                assert!((a.torsion * scale / b.torsion - 1.0).abs() < 1e-14);
+            }
+        }
+        let uneven = quintic_end_invariants(&points, &[1e300, 1e-300, 1e300, 1.0, 1.0, 1.0]);
+        assert!(matches!(uneven, Err(Error::NonFinite { index: 0, .. })));
+    }
 }

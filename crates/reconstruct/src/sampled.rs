@@ -3,6 +3,7 @@
 //! Section 3.4 of the thesis chapter: of computed geodesics "only numerical data are available", and the surface
 //! construction "requires the smoothing of the binormal vectors".
 
+use crate::spatial::unit;
 use crate::{Curve, Error, GeodesicStrip, Series, VectorSeries};
 use core::array::from_fn;
 use glam::DVec3;
@@ -11,9 +12,16 @@ use nalgebra::DMatrix;
 /// Degree of the splines: with four continuous derivatives, as many as a strip uses.
 const DEGREE: usize = 5;
 
+/// Condition number of a fit above which noise of the ninth digit moves the curve by its size.
+const LARGEST_CONDITION: f64 = 1e9;
+
 /// A curve over `[0, 1]` fitted to points by a quintic spline with uniform spans, in the sense of least squares.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredCurve")
+)]
 pub struct SampledCurve {
     coefficients: Vec<DVec3>,
     parameters: Vec<f64>,
@@ -28,7 +36,7 @@ impl SampledCurve {
     /// # Errors
     /// [`Error::TooFew`] for fewer points than coefficients; [`Error::NonFinite`]; [`Error::ZeroVector`] when
     /// neighbouring points coincide; [`Error::OutOfRange`] for no span; [`Error::DegenerateEnergy`] when the points
-    /// leave a span empty.
+    /// leave so many spans (nearly) empty that they do not determine the curve.
     pub fn fit(points: &[DVec3], spans: usize) -> Result<Self, Error> {
         if let Some(index) = points.iter().position(|p| !p.is_finite()) {
             return Err(Error::NonFinite {
@@ -80,7 +88,7 @@ impl SampledCurve {
                     index,
                 });
             }
-            units.push(tangent.try_normalize().ok_or(Error::ZeroVector {
+            units.push(unit(*tangent).ok_or(Error::ZeroVector {
                 what: "tangent",
                 index,
             })?);
@@ -107,7 +115,7 @@ impl SampledCurve {
                 range: [1.0, f64::INFINITY],
             });
         }
-        let count = spans + DEGREE;
+        let count = spans.saturating_add(DEGREE);
         let conditions = values.len() * if velocities.is_some() { 2 } else { 1 };
         if values.len() < 2 || conditions < count {
             return Err(Error::TooFew {
@@ -137,11 +145,16 @@ impl SampledCurve {
                 }
             }
         }
-        let qr = matrix.clone().qr();
-        let solution = qr
-            .r()
-            .solve_upper_triangular(&(qr.q().transpose() * &right))
+        let qr = matrix.qr();
+        let factor = qr.r();
+        // Data that leave a span empty determine some coefficients by rounding only.
+        let inverse = factor
+            .solve_upper_triangular(&DMatrix::identity(count, count))
             .ok_or(Error::DegenerateEnergy)?;
+        if !(factor.norm() * inverse.norm() <= LARGEST_CONDITION) {
+            return Err(Error::DegenerateEnergy);
+        }
+        let solution = inverse * (qr.q().transpose() * &right);
         let coefficients: Vec<DVec3> = (0..count)
             .map(|k| DVec3::new(solution[(k, 0)], solution[(k, 1)], solution[(k, 2)]))
             .collect();
@@ -235,6 +248,50 @@ impl SampledCurve {
         }
         let normal = Self::fit_at(self.parameters.clone(), normals, None, spans)?;
         GeodesicStrip::with_normal(self.clone(), normal)
+    }
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(rename = "SampledCurve")]
+struct StoredCurve {
+    coefficients: Vec<DVec3>,
+    parameters: Vec<f64>,
+    residual: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredCurve> for SampledCurve {
+    type Error = Error;
+
+    fn try_from(stored: StoredCurve) -> Result<Self, Error> {
+        let StoredCurve {
+            coefficients,
+            parameters,
+            residual,
+        } = stored;
+        if coefficients.len() <= DEGREE {
+            return Err(Error::TooFew {
+                what: "coefficients",
+                needed: DEGREE + 1,
+                got: coefficients.len(),
+            });
+        }
+        if let Some(index) = coefficients.iter().position(|c| !c.is_finite()) {
+            return Err(Error::NonFinite {
+                what: "coefficient",
+                index,
+            });
+        }
+        crate::spline::check_increasing(&parameters)?;
+        if !(residual >= 0.0 && residual.is_finite()) {
+            return Err(Error::Stored { what: "residual" });
+        }
+        Ok(Self {
+            coefficients,
+            parameters,
+            residual,
+        })
     }
 }
 
@@ -390,6 +447,16 @@ mod tests {
         assert!(matches!(
             SampledCurve::fit_with_tangents(&points, &tangents[1..], 2),
             Err(Error::LengthMismatch { .. })
+        ));
+        assert!(matches!(
+            SampledCurve::fit(&points, usize::MAX),
+            Err(Error::TooFew { .. })
+        ));
+        let mut gap: Vec<DVec3> = (0..10).map(|i| DVec3::X * (0.001 * f64::from(i))).collect();
+        gap.extend([1.0, 1.001].map(|x| DVec3::new(x, 0.5, 0.0)));
+        assert!(matches!(
+            SampledCurve::fit(&gap, 6),
+            Err(Error::DegenerateEnergy)
         ));
         let line: Vec<DVec3> = (0..20).map(|i| DVec3::X * f64::from(i)).collect();
         let straight = SampledCurve::fit(&line, 2).unwrap().strip(2);

@@ -4,6 +4,7 @@
 //! angle to the vertical; the second one three-axis accelerometers alternating with two-axis magnetometers.
 
 use crate::Error;
+use crate::spatial::unit;
 use core::f64::consts::PI;
 use glam::{DMat3, DVec3};
 
@@ -17,12 +18,22 @@ pub enum SensorKind {
     Magnetometer,
     /// Magnetometer without the axis normal to the ribbon; the third coordinate of its readings is ignored
     /// and completed from gravity and the dip of the field.
+    ///
+    /// With two axes a lost field is found less often: where gravity leaves the ribbon's plane by more than 0.1, when
+    /// the completed field's horizontal part is wrong by more than half; elsewhere, when the two axes contradict the dip
+    /// by as much. A weak field on a tilted ribbon can pass for one of another heading, and on a ribbon edge-on to gravity
+    /// near the magnetic equator a weak field passes for one along the missing axis. Two zeros are refused as a dead
+    /// sensor.
     MagnetometerTwoAxis,
 }
 
 /// How raw readings become body vectors: `body = matrix * (raw - offset)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredCalibration", into = "StoredCalibration")
+)]
 pub struct Calibration {
     offset: DVec3,
     matrix: DMat3,
@@ -122,7 +133,9 @@ impl Calibration {
         let magnitude = body.length();
         if axes == 2 {
             let body = DVec3::new(body.x, body.y, 0.0);
-            return if body.length() <= LARGEST_MAGNITUDE {
+            // Exactly nothing on both axes is a dead sensor, not a field along the missing one.
+            let dead = body == DVec3::ZERO;
+            return if body.length() <= LARGEST_MAGNITUDE && !dead {
                 Ok(body)
             } else {
                 Err(ReadingFault::FieldLost { magnitude })
@@ -133,6 +146,57 @@ impl Calibration {
         } else {
             Err(ReadingFault::FieldLost { magnitude })
         }
+    }
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename = "Calibration")]
+struct StoredCalibration {
+    offset: DVec3,
+    matrix: DMat3,
+    /// None without a limit: not every format has infinities.
+    full_scale: Option<f64>,
+    magnitude: f64,
+}
+
+#[cfg(feature = "serde")]
+impl From<Calibration> for StoredCalibration {
+    fn from(calibration: Calibration) -> Self {
+        Self {
+            offset: calibration.offset,
+            matrix: calibration.matrix,
+            full_scale: Some(calibration.full_scale).filter(|limit| limit.is_finite()),
+            magnitude: calibration.magnitude,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredCalibration> for Calibration {
+    type Error = Error;
+
+    fn try_from(stored: StoredCalibration) -> Result<Self, Error> {
+        let StoredCalibration {
+            offset,
+            matrix,
+            full_scale,
+            magnitude,
+        } = stored;
+        let full_scale = full_scale.unwrap_or(f64::INFINITY);
+        let invertible = matrix.is_finite() && matrix.inverse().is_finite();
+        let positive = full_scale > 0.0 && magnitude > 0.0 && magnitude.is_finite();
+        if !(offset.is_finite() && invertible && positive) {
+            return Err(Error::Stored {
+                what: "numbers of a calibration",
+            });
+        }
+        Ok(Self {
+            offset,
+            matrix,
+            full_scale,
+            magnitude,
+        })
     }
 }
 
@@ -215,10 +279,31 @@ impl Sensor {
 
 /// The directions of gravity and of the magnetic field in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredFields")
+)]
 pub struct WorldFields {
     up: DVec3,
     magnetic: DVec3,
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(rename = "WorldFields")]
+struct StoredFields {
+    up: DVec3,
+    magnetic: DVec3,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredFields> for WorldFields {
+    type Error = Error;
+
+    fn try_from(stored: StoredFields) -> Result<Self, Error> {
+        Self::new(stored.up, stored.magnetic)
+    }
 }
 
 impl WorldFields {
@@ -227,15 +312,15 @@ impl WorldFields {
     /// # Errors
     /// [`Error::NonFinite`], [`Error::ZeroVector`], or [`Error::ParallelFields`] when the two are parallel.
     pub fn new(up: DVec3, magnetic: DVec3) -> Result<Self, Error> {
-        let unit = |what, index, v: DVec3| {
+        let checked = |what, index, v: DVec3| {
             if !v.is_finite() {
                 return Err(Error::NonFinite { what, index });
             }
-            v.try_normalize().ok_or(Error::ZeroVector { what, index })
+            unit(v).ok_or(Error::ZeroVector { what, index })
         };
         let (up, magnetic) = (
-            unit("world direction", 0, up)?,
-            unit("world direction", 1, magnetic)?,
+            checked("world direction", 0, up)?,
+            checked("world direction", 1, magnetic)?,
         );
         let sine = up.cross(magnetic).length();
         if sine < PARALLEL_FIELDS {

@@ -29,7 +29,6 @@ pub enum TangentMethod {
 }
 
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Tangent {
     Projected(CubicSpline<DVec3>),
     Spherical(SphereSpline),
@@ -57,7 +56,11 @@ impl Tangent {
 /// # Ok::<(), reconstruct::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredRibbon", into = "StoredRibbon")
+)]
 pub struct SpatialRibbon {
     pub(crate) knots: Vec<f64>,
     tangents: Vec<DVec3>,
@@ -125,6 +128,29 @@ impl SpatialRibbon {
         })
     }
 
+    /// The ribbon with other tangents at the same arc lengths, by the same method with the same ends.
+    pub(crate) fn with_tangents(&self, tangents: &[DVec3]) -> Result<Self, Error> {
+        Self::with_method(&self.knots, tangents, self.method(), self.end)
+    }
+
+    /// How the tangents are interpolated.
+    #[must_use]
+    pub fn method(&self) -> TangentMethod {
+        match self.tangent {
+            Tangent::Projected(_) => TangentMethod::Projected,
+            Tangent::Spherical(_) => TangentMethod::SphericalSpline,
+        }
+    }
+
+    /// The end condition; the spherical spline has its own natural-like ends.
+    #[must_use]
+    pub fn end_condition(&self) -> EndCondition {
+        match self.tangent {
+            Tangent::Projected(_) => self.end,
+            Tangent::Spherical(_) => EndCondition::Natural,
+        }
+    }
+
     /// The arc lengths of the data.
     #[must_use]
     pub fn arc_lengths(&self) -> &[f64] {
@@ -188,15 +214,24 @@ impl SpatialRibbon {
     /// How the position at arc length `s` moves when tangent `j` moves by a small vector: one matrix a
     /// datum, in units of length. `dx(s) = sum_j M_j dT_j`,
     /// `M_j = integral of phi_j (I - T T^T) / |S|`, with the cardinal splines `phi_j` and the spline `S`.
-    /// For the spherical spline this is the derivative of the projected one, which agrees to first order in
-    /// the turning between neighbouring sensors.
+    /// For the spherical spline this is the derivative of the projected one with natural ends, which agrees to first
+    /// order in the turning between neighbouring sensors.
+    ///
+    /// Beyond the ends it goes on as [`SpatialRibbon::point`] does; an `s` that is no number gives NaN.
     #[must_use]
     pub fn sensitivity(&self, s: f64) -> Vec<DMat3> {
-        let cardinals = cardinal_splines(&self.knots, self.end);
+        let cardinals = cardinal_splines(&self.knots, self.end_condition());
         let mut totals = vec![DMat3::ZERO; cardinals.len()];
-        for pair in self.knots.windows(2).take_while(|pair| pair[0] < s) {
-            let end = s.min(pair[1]);
-            self.add_sensitivity(&cardinals, pair[0], end, &mut totals);
+        if s.is_nan() {
+            return vec![DMat3::NAN; cardinals.len()];
+        }
+        let last = self.knots.len() - 2;
+        for (i, pair) in self.knots.windows(2).enumerate() {
+            let end = if i == last { s } else { s.min(pair[1]) };
+            // Before the start the first interval is run backwards.
+            if i == 0 || pair[0] < s {
+                self.add_sensitivity(&cardinals, pair[0], end, &mut totals);
+            }
         }
         totals
     }
@@ -228,7 +263,8 @@ impl SpatialRibbon {
     }
 
     /// The covariance of the position at each datum (length squared), when the tangents carry independent
-    /// isotropic errors of standard deviation `sigma` (radians, per direction across the tangent).
+    /// isotropic errors of standard deviation `sigma` (radians, per direction across the tangent). Only the square of
+    /// `sigma` enters, so its sign does not matter; a `sigma` that is no number gives NaN.
     #[must_use]
     pub fn covariance(&self, sigma: f64) -> Vec<DMat3> {
         self.positions_sensitivity()
@@ -246,7 +282,7 @@ impl SpatialRibbon {
 
     /// [`SpatialRibbon::sensitivity`] at every datum.
     pub(crate) fn positions_sensitivity(&self) -> Vec<Vec<DMat3>> {
-        let cardinals = cardinal_splines(&self.knots, self.end);
+        let cardinals = cardinal_splines(&self.knots, self.end_condition());
         let mut row = vec![DMat3::ZERO; cardinals.len()];
         let mut rows = vec![row.clone()];
         for pair in self.knots.windows(2) {
@@ -257,9 +293,52 @@ impl SpatialRibbon {
     }
 }
 
+/// The data of a ribbon; the rest is computed from them.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename = "SpatialRibbon")]
+struct StoredRibbon {
+    s: Vec<f64>,
+    tangents: Vec<DVec3>,
+    method: TangentMethod,
+    end: EndCondition,
+}
+
+#[cfg(feature = "serde")]
+impl From<SpatialRibbon> for StoredRibbon {
+    fn from(ribbon: SpatialRibbon) -> Self {
+        Self {
+            method: ribbon.method(),
+            s: ribbon.knots,
+            tangents: ribbon.tangents,
+            end: ribbon.end,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredRibbon> for SpatialRibbon {
+    type Error = Error;
+
+    fn try_from(stored: StoredRibbon) -> Result<Self, Error> {
+        Self::with_method(&stored.s, &stored.tangents, stored.method, stored.end)
+    }
+}
+
 /// The matrix `a b^T`.
 pub(crate) fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
+}
+
+/// The direction of a finite vector of any length; none of zero.
+pub(crate) fn unit(v: DVec3) -> Option<DVec3> {
+    let largest = v.abs().max_element();
+    // Squares of such coordinates are ordinary numbers.
+    if (1e-100..=1e100).contains(&largest) {
+        v.try_normalize()
+    } else {
+        (v / largest).try_normalize()
+    }
 }
 
 /// The tangents normalised.
@@ -275,7 +354,7 @@ pub(crate) fn unit_tangents(tangents: &[DVec3]) -> Result<Vec<DVec3>, Error> {
                 index,
             });
         }
-        let unit = tangent.try_normalize().ok_or(Error::ZeroVector {
+        let unit = unit(*tangent).ok_or(Error::ZeroVector {
             what: "tangent",
             index,
         })?;

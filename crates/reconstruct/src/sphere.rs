@@ -33,7 +33,6 @@ pub(crate) fn exponential(a: DVec3, v: DVec3) -> DVec3 {
 
 /// A spline of unit vectors at equally spaced parameters.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct SphereSpline {
     start: f64,
     spacing: f64,

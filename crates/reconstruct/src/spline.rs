@@ -161,7 +161,14 @@ pub(crate) fn periodic_moments<V: VectorSpace>(knots: &[f64], values: &[V]) -> V
 
 /// A C2 piecewise cubic through given values.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "StoredSpline<V>",
+        bound(deserialize = "V: VectorSpace + serde::Deserialize<'de>")
+    )
+)]
 pub struct CubicSpline<V> {
     knots: Vec<f64>,
     values: Vec<V>,
@@ -230,6 +237,12 @@ impl<V: VectorSpace> CubicSpline<V> {
         self.piece(interval(&self.knots, s)).value(s)
     }
 
+    /// The value at `s` of a periodic spline, the period being the span of the knots.
+    pub(crate) fn periodic_value(&self, s: f64) -> V {
+        let [start, end] = [self.knots[0], self.knots[self.knots.len() - 1]];
+        self.value(start + (s - start).rem_euclid(end - start))
+    }
+
     /// The cubic on the interval with this index, which must exist.
     pub(crate) fn piece(&self, i: usize) -> Cubic<V> {
         Cubic {
@@ -238,6 +251,52 @@ impl<V: VectorSpace> CubicSpline<V> {
             values: [self.values[i], self.values[i + 1]],
             moments: [self.moments[i], self.moments[i + 1]],
         }
+    }
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(rename = "CubicSpline")]
+struct StoredSpline<V> {
+    knots: Vec<f64>,
+    values: Vec<V>,
+    moments: Vec<V>,
+}
+
+#[cfg(feature = "serde")]
+impl<V: VectorSpace> TryFrom<StoredSpline<V>> for CubicSpline<V> {
+    type Error = Error;
+
+    fn try_from(stored: StoredSpline<V>) -> Result<Self, Error> {
+        /// Jump of the slope at a knot, relative to its terms: well above the rounding of the system that was solved.
+        const SMOOTH: f64 = 1e-6;
+        let StoredSpline {
+            knots,
+            values,
+            moments,
+        } = stored;
+        check_increasing(&knots)?;
+        check_values(&knots, &values)?;
+        let wrong = Error::Stored {
+            what: "second derivatives of a spline",
+        };
+        if moments.len() != knots.len() || !moments.iter().all(|m| m.is_finite()) {
+            return Err(wrong);
+        }
+        let spline = Self {
+            knots,
+            values,
+            moments,
+        };
+        for i in 1..spline.knots.len() - 1 {
+            let (s, [a, b]) = (spline.knots[i], [spline.piece(i - 1), spline.piece(i)]);
+            let jump = b.derivative(s).minus(a.derivative(s)).magnitude();
+            let terms: f64 = [a, b].map(Cubic::largest_slope).iter().sum();
+            if !(jump <= SMOOTH * terms) {
+                return Err(wrong);
+            }
+        }
+        Ok(spline)
     }
 }
 
@@ -300,6 +359,16 @@ impl<V: VectorSpace> Cubic<V> {
             .times(1.0 / self.length)
             .plus(self.moments[0].times((1.0 - 3.0 * a * a) * sixth))
             .plus(self.moments[1].times((3.0 * b * b - 1.0) * sixth))
+    }
+
+    /// A bound of the terms of [`Cubic::derivative`].
+    #[cfg(feature = "serde")]
+    fn largest_slope(self) -> f64 {
+        self.values
+            .iter()
+            .map(|v| v.magnitude() / self.length)
+            .chain(self.moments.iter().map(|m| m.magnitude() * self.length))
+            .sum()
     }
 
     pub(crate) fn second_derivative(&self, s: f64) -> V {

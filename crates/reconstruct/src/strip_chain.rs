@@ -1,5 +1,6 @@
 //! Chains of surfaces through two curves.
 
+use crate::conditions::refuse_inflections;
 use crate::strip::{GeodesicStrip, Strip, StripSample};
 use crate::two_curves::{LEAST_ACROSS, PLACES};
 use crate::{CubicSpline, EndCondition, ScalarFunction};
@@ -46,6 +47,9 @@ impl StripChain {
                 range: [0.0, f64::INFINITY],
             });
         }
+        for (side, strip) in strips.iter().enumerate() {
+            refuse_inflections(strip, side)?;
+        }
         let strips = oriented_chain(strips)?;
         let places: Vec<f64> = (0..=PLACES).map(|i| i as f64 / PLACES as f64).collect();
         let mut lengths = vec![Vec::with_capacity(places.len()); n];
@@ -72,7 +76,7 @@ impl StripChain {
         let surfaces = (0..n - 1)
             .map(|k| {
                 Ok(
-                    TwoCurveSurface::from_oriented([strips[k].clone(), strips[k + 1].clone()])
+                    TwoCurveSurface::between([strips[k].clone(), strips[k + 1].clone()])
                         .with_fields([field(k, widths[k])?, field(k + 1, widths[k])?]),
                 )
             })
@@ -185,7 +189,7 @@ fn chain_lengths(samples: &[StripSample], widths: &[f64]) -> Result<Vec<f64>, Er
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{boundary, helix};
+    use crate::testing::{boundary, helix, inflected};
 
     #[test]
     fn a_chain_is_one_smooth_surface() {
@@ -211,6 +215,11 @@ mod tests {
         assert!(matches!(
             StripChain::new(two(), &[1.0, 1.0]),
             Err(Error::LengthMismatch { .. })
+        ));
+        let bent = vec![helix(0.1, 0.0), helix(0.1, 1.0), inflected(2.0)];
+        assert!(matches!(
+            StripChain::new(bent, &[1.0, 1.0]),
+            Err(Error::Inflection { side: 2, t }) if (t - 0.4).abs() < 1e-6
         ));
     }
 }

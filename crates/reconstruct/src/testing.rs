@@ -47,3 +47,12 @@ pub(crate) fn boundary(surface: &impl Surface) -> f64 {
         .map(|at| geodesic_curvature(at.du, at.duu, at.du.cross(at.dv)).abs())
         .fold(0.0, f64::max)
 }
+
+/// The strip of a space curve by its binormal, which reverses at 0.4.
+pub(crate) fn inflected(z: f64) -> GeodesicStrip {
+    GeodesicStrip::new(AnalyticCurve::new(move |t| {
+        let x = t - 0.4;
+        [t, x * x * x, x * x * x * x * 2.0 + z]
+    }))
+    .unwrap()
+}

@@ -207,6 +207,10 @@ mod tests {
     use glam::DVec2;
 
     fn great_circles() -> Triangle {
+        ball(1.0)
+    }
+
+    fn ball(radius: f64) -> Triangle {
         let corners = [
             DVec3::new(1.0, 0.0, 0.1),
             DVec3::new(0.2, 0.9, 0.0),
@@ -218,7 +222,7 @@ mod tests {
             let angle = a.angle_between(b);
             GeodesicStrip::new(AnalyticCurve::new(move |t: Series| {
                 let (sin, cos) = (t * angle).sin_cos();
-                from_fn(|k| cos * a[k] + sin * across[k])
+                from_fn(|k| (cos * a[k] + sin * across[k]) * radius)
             }))
             .unwrap()
         };
@@ -287,5 +291,17 @@ mod tests {
             triangle.smoothest([DVec2::ZERO; 3]),
             Err(Error::OutOfRange { .. })
         ));
+    }
+
+    #[test]
+    fn smoothing_does_not_depend_on_the_unit_of_length() {
+        let domain = [DVec2::ZERO, DVec2::new(2.0, 0.3), DVec2::new(0.4, 1.5)];
+        let unit = ball(1.0).smoothest(domain).unwrap();
+        for radius in [1e-30, 1e12, 1e30] {
+            let large = ball(radius).smoothest(domain).unwrap();
+            assert!((large.energy / (radius * radius) - unit.energy).abs() < 1e-12);
+            let (a, b) = (large.patch.point(0.3, 0.3), unit.patch.point(0.3, 0.3));
+            assert!((a / radius - b).length() < 1e-13, "{radius}");
+        }
     }
 }

@@ -91,19 +91,21 @@ impl<S: Strip> TrianglePatch<S> {
         worst
     }
 
-    /// The patch with one free parameter larger by one.
-    pub(crate) fn with_step(&self, parameter: usize) -> Self {
-        let mut moved = self.clone();
+    /// What one free parameter, larger by one, adds to the patch, which is affine in them.
+    pub(crate) fn step(&self, parameter: usize) -> TwistStep {
         let vertex = parameter / 2;
         let direction = self.triangle.vertices[vertex].tangents[parameter % 2];
-        moved.twists[vertex][parameter % 2] += 1.0;
-        moved.vectors[vertex] += direction;
+        let mut step = TwistStep {
+            vectors: [DVec3::ZERO; 3],
+            fields: [TransverseField::default(); 3],
+        };
+        step.vectors[vertex] = direction;
         for (side, end, sign) in [((vertex + 2) % 3, 0, 1.0), ((vertex + 1) % 3, 1, -1.0)] {
             let [p, q] = crate::coons::components(&self.triangle.ends[side][end], direction * sign);
-            moved.fields[side].along[1 + end] += p;
-            moved.fields[side].across[1 + end] += q;
+            step.fields[side].along[1 + end] = p;
+            step.fields[side].across[1 + end] = q;
         }
-        moved
+        step
     }
 
     pub(crate) fn samples(&self, l: [f64; 3]) -> [SidePair; 3] {
@@ -122,52 +124,87 @@ impl<S: Strip> TrianglePatch<S> {
             sides: [da, db],
             ..
         } = self.triangle.vertices[i];
-        let twist = self.vectors[i];
-        let [(a, a_functions), (b, b_functions)] = pair;
-        let d_a = self.fields[(i + 2) % 3].at(a, a_functions);
-        let d_b = self.fields[(i + 1) % 3].at(b, b_functions);
-        // g(y) = (D_B - B')(1 - y): each derivative changes the sign.
-        let g = [
-            d_b[0] - b.point[1],
-            -(d_b[1] - b.point[2]),
-            d_b[2] - b.point[3],
+        let [(a, _), (b, _)] = pair;
+        // What the sides alone contribute.
+        let sides = [
+            a.point[0] + b.point[0] - b.point[1] * x - (point + da * x + db * y),
+            a.point[1] - b.point[1] - da,
+            b.point[2] * x - b.point[1] - db,
+            a.point[2],
+            b.point[2],
+            b.point[2] - b.point[3] * x,
         ];
-        [
-            a.point[0] + d_a[0] * y + b.point[0] + g[0] * x
-                - (point + da * x + db * y + twist * (x * y)),
-            a.point[1] + d_a[1] * y + g[0] - da - twist * y,
-            d_a[0] - b.point[1] + g[1] * x - db - twist * x,
-            a.point[2] + d_a[2] * y,
-            d_a[1] + g[1] - twist,
-            b.point[2] + g[2] * x,
-        ]
+        let across = transverse_part(&self.fields, &self.vectors, i, [x, y], pair);
+        from_fn(|k| sides[k] + across[k])
     }
 
     pub(crate) fn jet(&self, l: [f64; 3], samples: &[SidePair; 3]) -> BarycentricJet {
-        let mut jet = BarycentricJet {
-            value: DVec3::ZERO,
-            first: [DVec3::ZERO; 3],
-            second: [[DVec3::ZERO; 3]; 3],
-        };
-        for (i, pair) in samples.iter().enumerate() {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            let [p, px, py, pxx, pxy, pyy] = self.interpolant(i, [l[j], l[k]], pair);
-            let mut first = [DVec3::ZERO; 3];
-            (first[j], first[k]) = (px, py);
-            let mut second = [[DVec3::ZERO; 3]; 3];
-            (second[j][j], second[j][k], second[k][j], second[k][k]) = (pxx, pxy, pxy, pyy);
-            let (a, da, dda) = blend(l, i);
-            jet.value += p * a;
-            for m in 0..3 {
-                jet.first[m] += p * da[m] + first[m] * a;
-                for n in 0..3 {
-                    jet.second[m][n] +=
-                        p * dda[m][n] + first[m] * da[n] + first[n] * da[m] + second[m][n] * a;
-                }
+        blended(l, |i, at| self.interpolant(i, at, &samples[i]))
+    }
+}
+
+/// A change of a patch's twists and transverse fields.
+pub(crate) struct TwistStep {
+    vectors: [DVec3; 3],
+    fields: [TransverseField; 3],
+}
+
+impl TwistStep {
+    /// What it adds to the jet of the patch.
+    pub(crate) fn jet(&self, l: [f64; 3], samples: &[SidePair; 3]) -> BarycentricJet {
+        blended(l, |i, at| {
+            transverse_part(&self.fields, &self.vectors, i, at, &samples[i])
+        })
+    }
+}
+
+/// The part `y D_A(x) + x D_B(1-y) - x y W` of an interpolant, linear in the fields and twists.
+fn transverse_part(
+    fields: &[TransverseField; 3],
+    vectors: &[DVec3; 3],
+    i: usize,
+    [x, y]: [f64; 2],
+    [(a, a_functions), (b, b_functions)]: &SidePair,
+) -> [DVec3; 6] {
+    let twist = vectors[i];
+    let d_a = fields[(i + 2) % 3].at(a, a_functions);
+    // D_B(1 - y): each derivative by y changes the sign.
+    let [g, dg, ddg] = fields[(i + 1) % 3].at(b, b_functions);
+    [
+        d_a[0] * y + g * x - twist * (x * y),
+        d_a[1] * y + g - twist * y,
+        d_a[0] - dg * x - twist * x,
+        d_a[2] * y,
+        d_a[1] - dg - twist,
+        ddg * x,
+    ]
+}
+
+/// The three interpolants, blended.
+fn blended(l: [f64; 3], interpolant: impl Fn(usize, [f64; 2]) -> [DVec3; 6]) -> BarycentricJet {
+    let mut jet = BarycentricJet {
+        value: DVec3::ZERO,
+        first: [DVec3::ZERO; 3],
+        second: [[DVec3::ZERO; 3]; 3],
+    };
+    for i in 0..3 {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        let [p, px, py, pxx, pxy, pyy] = interpolant(i, [l[j], l[k]]);
+        let mut first = [DVec3::ZERO; 3];
+        (first[j], first[k]) = (px, py);
+        let mut second = [[DVec3::ZERO; 3]; 3];
+        (second[j][j], second[j][k], second[k][j], second[k][k]) = (pxx, pxy, pxy, pyy);
+        let (a, da, dda) = blend(l, i);
+        jet.value += p * a;
+        for m in 0..3 {
+            jet.first[m] += p * da[m] + first[m] * a;
+            for n in 0..3 {
+                jet.second[m][n] +=
+                    p * dda[m][n] + first[m] * da[n] + first[n] * da[m] + second[m][n] * a;
             }
         }
-        jet
     }
+    jet
 }
 
 impl<S: Strip> Surface for TrianglePatch<S> {

@@ -4,9 +4,9 @@ use crate::Error;
 use crate::quadrature;
 use crate::strip::Strip;
 use crate::triangle::Triangle;
-use crate::triangle_patch::{BarycentricJet, TrianglePatch};
+use crate::triangle_patch::{BarycentricJet, TrianglePatch, TwistStep};
 use core::array::from_fn;
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 use nalgebra::{SMatrix, SVector};
 
 /// The triangular patch of least energy.
@@ -32,18 +32,15 @@ impl<S: Strip> Triangle<S> {
     pub fn smoothest(&self, domain: [DVec2; 3]) -> Result<SmoothedTriangle<S>, Error> {
         let plate = ThinPlate::new(domain)?;
         let flat = self.patch([[0.0; 2]; 3])?;
-        // The construction is affine in the twists: unit steps give the basis exactly.
-        let moved: Vec<TrianglePatch<S>> = (0..6).map(|k| flat.with_step(k)).collect();
+        // The construction is affine in the twists: the steps are a basis of what they do.
+        let steps: [TwistStep; 6] = from_fn(|k| flat.step(k));
         let (mut matrix, mut gradient) =
             (SMatrix::<f64, 6, 6>::zeros(), SVector::<f64, 6>::zeros());
         let mut energy_at_zero = 0.0;
         for (l, weight) in &plate.rule {
             let samples = flat.samples(*l);
             let base = plate.integrand(&flat.jet(*l, &samples));
-            let basis: [[DVec3; 3]; 6] = from_fn(|k| {
-                let at = plate.integrand(&moved[k].jet(*l, &samples));
-                from_fn(|n| at[n] - base[n])
-            });
+            let basis: [[DVec3; 3]; 6] = from_fn(|k| plate.integrand(&steps[k].jet(*l, &samples)));
             let dot = |a: &[DVec3; 3], b: &[DVec3; 3]| (0..3).map(|n| a[n].dot(b[n])).sum::<f64>();
             energy_at_zero += weight * dot(&base, &base);
             for k in 0..6 {
@@ -99,18 +96,22 @@ pub fn barycentric_gradients(triangle: [DVec2; 3]) -> Result<[DVec2; 3], Error> 
         });
     }
     let [a, b, c] = triangle;
-    let matrix = DMat3::from_cols(a.extend(1.0), b.extend(1.0), c.extend(1.0));
-    let twice_area = (b - a).perp_dot(c - a);
-    let size = (b - a).length().max((c - a).length());
-    if !(twice_area.abs() > 1e-12 * size * size) {
+    // Edges only, in units of the longest coordinate: neither place nor scale matters.
+    let edges = [c - b, a - c, b - a];
+    let size = edges
+        .iter()
+        .fold(0.0, |m: f64, edge| m.max(edge.abs().max_element()));
+    let edges = edges.map(|edge| edge / size);
+    let twice_area = edges[0].perp_dot(edges[1]);
+    let gradients = edges.map(|edge| edge.perp() / twice_area / size);
+    if !(twice_area.abs() > 1e-12 && gradients.iter().all(|g| g.is_finite())) {
         return Err(Error::OutOfRange {
             what: "area of the domain triangle",
-            value: 0.5 * twice_area,
+            value: 0.5 * twice_area * size * size,
             range: [0.0, f64::INFINITY],
         });
     }
-    let inverse = matrix.inverse();
-    Ok([0, 1, 2].map(|i| inverse.row(i).truncate()))
+    Ok(gradients)
 }
 
 /// Gauss points in either direction of the collapsed square: exact to degree 22.
@@ -148,5 +149,28 @@ impl ThinPlate {
             }
         }
         hessian
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gradients_depend_on_neither_place_nor_scale() {
+        let wanted = [DVec2::NEG_ONE, DVec2::X, DVec2::Y];
+        for (place, size) in [(0.0, 1.0), (1e9, 1.0), (0.0, 1e-200), (0.0, 1e200)] {
+            let corners = [DVec2::ZERO, DVec2::X, DVec2::Y];
+            let corners = corners.map(|p| p * size + DVec2::splat(place));
+            let gradients = barycentric_gradients(corners).unwrap();
+            for (g, w) in gradients.into_iter().zip(wanted) {
+                assert!((g * size - w).length() < 1e-14, "{place} {size}");
+            }
+        }
+        let line = [DVec2::ZERO, DVec2::X, DVec2::X * 2.0];
+        assert!(matches!(
+            barycentric_gradients(line),
+            Err(Error::OutOfRange { .. })
+        ));
     }
 }

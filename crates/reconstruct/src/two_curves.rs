@@ -4,6 +4,7 @@
 //! `X_i = lambda_i (cos alpha_i h_i + sin alpha_i e_i)` in the tangent planes. Both curves are geodesics for any
 //! `alpha_i`, `lambda_i` as long as `lambda_i cos alpha_i` does not vanish.
 
+use crate::conditions::refuse_inflections;
 use crate::end_field::{EndField, ScalarFunction};
 use crate::hermite::hermite;
 use crate::hermite_arc::{EndVectorProblem, Freedom, HermiteArc, LocalCriterion};
@@ -37,6 +38,8 @@ pub struct TwoCurveSurface {
 /// Smallest component across a curve that smoothing leaves, in parts of the local distance of the curves: a smaller
 /// one would fold the surface back.
 pub(crate) const LEAST_ACROSS: f64 = 0.05;
+/// Smallest sine between an end vector and its curve whose length may be chosen.
+const LEAST_SINE: f64 = 1e-6;
 /// Places along the curves at which the local criteria are solved; a cubic spline joins them.
 pub(crate) const PLACES: usize = 32;
 
@@ -45,9 +48,13 @@ impl TwoCurveSurface {
     /// The strips are turned so that `across` points from the first curve towards the second.
     ///
     /// # Errors
-    /// [`Error::IrregularBoundary`] when a curve's `across` is orthogonal to the way to the other curve at its middle,
-    /// so that the surface cannot leave it.
+    /// [`Error::Inflection`] when a curve has an inflection that its strip cannot pass: give it a normal that runs on,
+    /// with [`GeodesicStrip::with_normal`]. [`Error::IrregularBoundary`] when a curve's `across` is orthogonal to the
+    /// way to the other curve at its middle, so that the surface cannot leave it.
     pub fn new(strips: [GeodesicStrip; 2]) -> Result<Self, Error> {
+        for (side, strip) in strips.iter().enumerate() {
+            refuse_inflections(strip, side)?;
+        }
         let [a, b] = [strips[0].sample(0.5), strips[1].sample(0.5)];
         let chord = b.point[0] - a.point[0];
         let mut oriented = Vec::with_capacity(2);
@@ -83,8 +90,18 @@ impl TwoCurveSurface {
     }
 
     /// The surface through two strips as they are oriented, with unit end vectors straight across.
-    #[must_use]
-    pub fn from_oriented(strips: [GeodesicStrip; 2]) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::Inflection`] as in [`TwoCurveSurface::new`].
+    pub fn from_oriented(strips: [GeodesicStrip; 2]) -> Result<Self, Error> {
+        for (side, strip) in strips.iter().enumerate() {
+            refuse_inflections(strip, side)?;
+        }
+        Ok(Self::between(strips))
+    }
+
+    /// As [`TwoCurveSurface::from_oriented`], of strips known to have no inflections that they cannot pass.
+    pub(crate) fn between(strips: [GeodesicStrip; 2]) -> Self {
         let field = EndField::Polar {
             angle: 0.0.into(),
             length: 1.0.into(),
@@ -118,13 +135,14 @@ impl TwoCurveSurface {
     /// fall below 0.05 of the chord is held there.
     ///
     /// # Errors
-    /// [`Error::NonFinite`] for curves that are not finite.
+    /// [`Error::NonFinite`] for curves that are not finite; [`Error::IrregularBoundary`] when only lengths are free and
+    /// an end vector is within 1e-6 of the direction of its curve or points back, so that no length leads away from it.
     pub fn smoothed(self, criterion: LocalCriterion, freedom: Freedom) -> Result<Self, Error> {
         let places: Vec<f64> = (0..=PLACES).map(|i| i as f64 / PLACES as f64).collect();
         let mut components = [[const { Vec::new() }; 2], [const { Vec::new() }; 2]];
         for &u in &places {
             let samples = [self.strips[0].sample(u), self.strips[1].sample(u)];
-            let chosen = self.local_minimum(u, &samples, criterion, freedom);
+            let chosen = self.local_minimum(u, &samples, criterion, freedom)?;
             for end in 0..2 {
                 for axis in 0..2 {
                     components[end][axis].push(chosen[end][axis]);
@@ -154,7 +172,7 @@ impl TwoCurveSurface {
         samples: &[StripSample; 2],
         criterion: LocalCriterion,
         freedom: Freedom,
-    ) -> [[f64; 2]; 2] {
+    ) -> Result<[[f64; 2]; 2], Error> {
         let chord = samples[1].point[0] - samples[0].point[0];
         let least = LEAST_ACROSS * chord.length();
         match freedom {
@@ -164,6 +182,11 @@ impl TwoCurveSurface {
                     let length = p.hypot(q);
                     [p / length, q / length]
                 });
+                for (side, [_, across]) in directions.into_iter().enumerate() {
+                    if !(across > LEAST_SINE) {
+                        return Err(Error::IrregularBoundary { side, t: u, across });
+                    }
+                }
                 let vector = |end: usize| {
                     samples[end].along[0] * directions[end][0]
                         + samples[end].across[0] * directions[end][1]
@@ -173,9 +196,9 @@ impl TwoCurveSurface {
                     [vector(0), vector(1)],
                 );
                 let magnitudes = arc.least(criterion).magnitudes;
-                from_fn(|end| {
+                Ok(from_fn(|end| {
                     directions[end].map(|c| c * magnitudes[end].max(least / directions[end][1]))
-                })
+                }))
             }
             Freedom::Vectors => {
                 let mut basis = Vec::with_capacity(4);
@@ -183,7 +206,7 @@ impl TwoCurveSurface {
                     basis.extend([(end, sample.along[0]), (end, sample.across[0])]);
                 }
                 let (c, _) = EndVectorProblem { chord, basis }.minimum(criterion);
-                [[c[0], c[1].max(least)], [c[2], c[3].max(least)]]
+                Ok([[c[0], c[1].max(least)], [c[2], c[3].max(least)]])
             }
         }
     }
@@ -268,7 +291,7 @@ impl Surface for TwoCurveSurface {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{boundary, helix};
+    use crate::testing::{boundary, helix, inflected};
 
     #[test]
     fn every_choice_of_the_free_functions_keeps_the_curves_geodesic() {
@@ -307,5 +330,48 @@ mod tests {
         let [east, west] = [surface.partials(u + h, v), surface.partials(u - h, v)];
         assert!(((east.du - west.du) / (2.0 * h) - at.duu).length() < 1e-8);
         assert!(((east.dv - west.dv) / (2.0 * h) - at.duv).length() < 1e-8);
+    }
+
+    /// The binormal reverses at an inflection: the surface would tear there.
+    #[test]
+    fn inflections_that_the_strip_cannot_pass_are_refused() {
+        let refused = |result: Result<TwoCurveSurface, Error>, side: usize| matches!(result, Err(Error::Inflection { side: s, t }) if s == side && (t - 0.4).abs() < 1e-6);
+        assert!(refused(
+            TwoCurveSurface::new([inflected(0.0), inflected(1.0)]),
+            0
+        ));
+        assert!(refused(
+            TwoCurveSurface::new([helix(0.1, 0.0), inflected(1.0)]),
+            1
+        ));
+        assert!(refused(
+            TwoCurveSurface::from_oriented([helix(0.1, 0.0), inflected(1.0)]),
+            1
+        ));
+    }
+
+    #[test]
+    fn end_vectors_along_their_curve_cannot_be_lengthened_into_a_surface() {
+        for angle in [core::f64::consts::FRAC_PI_2, core::f64::consts::PI] {
+            let field = EndField::Polar {
+                angle: angle.into(),
+                length: 1.0.into(),
+            };
+            let surface = TwoCurveSurface::new([helix(0.1, 0.0), helix(0.1, 1.0)])
+                .unwrap()
+                .with_fields([field.clone(), field]);
+            assert!(matches!(
+                surface
+                    .clone()
+                    .smoothed(LocalCriterion::Bending, Freedom::Lengths),
+                Err(Error::IrregularBoundary { side: 0, .. })
+            ));
+            // With free directions the angle plays no part.
+            assert!(
+                surface
+                    .smoothed(LocalCriterion::Bending, Freedom::Vectors)
+                    .is_ok()
+            );
+        }
     }
 }

@@ -258,3 +258,34 @@ fn hostile_numbers_are_refused() {
         assert!(Rectangle::new(from_fn(|_| strip.clone())).is_err());
     }
 }
+
+#[test]
+fn rational_quintics_keep_the_split_of_the_torsions_that_a_corner_asks_for() {
+    let torsions = |corners: &Corners| {
+        rational_quintic_boundaries(corners)
+            .map(|curves| [0, 1].map(|k| FrenetFrame::at(&curves[k], 0.0).unwrap().torsion))
+    };
+    let mut asked = corners();
+    let [a, b] = torsions(&asked).unwrap();
+    for factor in [0.8, 1.25] {
+        asked[0][0] = asked[0][0].with_torsion_difference((a - b) * factor);
+        let wanted = asked[0][0].torsions();
+        for (found, wanted) in torsions(&asked).unwrap().into_iter().zip(wanted) {
+            assert!((found - wanted).abs() < 1e-10, "{found} {wanted}");
+        }
+    }
+    // Boundaries in planes of symmetry have no torsion to give.
+    let at = |x: f64, y: f64| {
+        let tangents = [
+            DVec3::new(1.0, 0.0, -0.5 * x),
+            DVec3::new(0.0, 1.0, -0.5 * y),
+        ];
+        let point = DVec3::new(x, y, -0.25 * (x * x + y * y));
+        let normal = DVec3::new(0.5 * x, 0.5 * y, 1.0);
+        CornerData::new(point, normal, tangents, [-0.5, -0.45]).unwrap()
+    };
+    let mut flat = [0.0, 1.0].map(|x| [0.0, 1.0].map(|y| at(x, y)));
+    assert!(torsions(&flat).is_ok());
+    flat[0][0] = flat[0][0].with_torsion_difference(0.3);
+    assert!(matches!(torsions(&flat), Err(Error::TorsionSign { .. })));
+}

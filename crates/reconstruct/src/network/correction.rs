@@ -1,8 +1,8 @@
 //! The least turns of all ribbons that close their crossings.
 
-use super::RibbonNetwork;
+use super::{Crossing, RibbonNetwork};
 use crate::Error;
-use crate::spatial::{SpatialRibbon, outer};
+use crate::spatial::outer;
 use glam::{DMat3, DVec3};
 use nalgebra::{DMatrix, DVector};
 
@@ -10,12 +10,11 @@ impl RibbonNetwork {
     /// Puts the ribbons together with least squared gaps, their shapes being kept.
     pub(super) fn place(&mut self) -> Result<(), Error> {
         let free = self.ribbons.len() - 1;
-        let gaps = self.gaps()?;
         let (mut matrix, mut right) = (
             DMatrix::<f64>::zeros(free, free),
             DMatrix::<f64>::zeros(free, 3),
         );
-        for (crossing, gap) in self.crossings.iter().zip(gaps) {
+        for (crossing, gap) in self.distinct()? {
             let sides = [(crossing.ribbons[0], 1.0), (crossing.ribbons[1], -1.0)];
             for (i, sign) in sides.into_iter().filter(|(i, _)| *i > 0) {
                 for (j, other) in sides.into_iter().filter(|(j, _)| *j > 0) {
@@ -48,6 +47,25 @@ impl RibbonNetwork {
             .collect()
     }
 
+    /// The crossings that do not only repeat an earlier one, with their gaps.
+    fn distinct(&self) -> Result<Vec<(Crossing, DVec3)>, Error> {
+        let mut distinct: Vec<(Crossing, DVec3)> = Vec::with_capacity(self.crossings.len());
+        for (crossing, gap) in self.crossings.iter().zip(self.gaps()?) {
+            let ([a, b], [s, t]) = (crossing.ribbons, crossing.s);
+            let turned = Crossing {
+                ribbons: [b, a],
+                s: [t, s],
+            };
+            if distinct
+                .iter()
+                .all(|(before, _)| before != crossing && *before != turned)
+            {
+                distinct.push((*crossing, gap));
+            }
+        }
+        Ok(distinct)
+    }
+
     /// One Newton step: the least change `d` of the tangents from the measured ones and moves `p` of the origins with
     /// `gap + J d + P p = 0`. With the multipliers `m`: `[J J^T, P; P^T, 0] [m; p] = [-(gap - J (now - measured)); 0]`
     /// and the new deviation is `J^T m`.
@@ -66,11 +84,12 @@ impl RibbonNetwork {
             .iter()
             .map(|ribbon| 3 * ribbon.tangents().len())
             .sum();
-        let (rows, moves) = (3 * self.crossings.len(), 3 * (self.ribbons.len() - 1));
+        let crossings = self.distinct()?;
+        let (rows, moves) = (3 * crossings.len(), 3 * (self.ribbons.len() - 1));
         let mut jacobian = DMatrix::<f64>::zeros(rows, unknowns);
         let mut placing = DMatrix::<f64>::zeros(rows, moves);
         let mut right = DVector::<f64>::zeros(rows + moves);
-        for (c, (crossing, gap)) in self.crossings.iter().zip(self.gaps()?).enumerate() {
+        for (c, (crossing, gap)) in crossings.iter().enumerate() {
             for axis in 0..3 {
                 right[3 * c + axis] = -gap[axis];
             }
@@ -134,7 +153,7 @@ impl RibbonNetwork {
                         }))
                 })
                 .collect();
-            *ribbon = SpatialRibbon::new(ribbon.arc_lengths(), &tangents)?;
+            *ribbon = ribbon.with_tangents(&tangents)?;
             if i > 0 {
                 let at = rows + 3 * (i - 1);
                 self.origins[i] += DVec3::new(solution[at], solution[at + 1], solution[at + 2]);

@@ -23,7 +23,11 @@ pub struct Crossing {
 
 /// Ribbons in space that meet in their crossings.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredNetwork")
+)]
 pub struct RibbonNetwork {
     ribbons: Vec<SpatialRibbon>,
     origins: Vec<DVec3>,
@@ -192,6 +196,62 @@ impl RibbonNetwork {
     }
 }
 
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(rename = "RibbonNetwork")]
+struct StoredNetwork {
+    ribbons: Vec<SpatialRibbon>,
+    origins: Vec<DVec3>,
+    crossings: Vec<Crossing>,
+    gap_before: f64,
+    gap: f64,
+    largest_turn: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredNetwork> for RibbonNetwork {
+    type Error = Error;
+
+    fn try_from(stored: StoredNetwork) -> Result<Self, Error> {
+        /// Gap accepted, in parts of the one that was: the numbers may have lost their last digit.
+        const STORED: f64 = 10.0;
+        let StoredNetwork {
+            ribbons,
+            origins,
+            crossings,
+            gap_before,
+            gap,
+            largest_turn,
+        } = stored;
+        check(&ribbons, &crossings)?;
+        let finite = [gap_before, gap, largest_turn]
+            .iter()
+            .all(|x| x.is_finite());
+        if origins.len() != ribbons.len() || !finite {
+            return Err(Error::Stored {
+                what: "origins of a network",
+            });
+        }
+        let size = ribbons.iter().map(length).fold(0.0, f64::max);
+        let network = Self {
+            ribbons,
+            origins,
+            crossings,
+            gap_before,
+            gap,
+            largest_turn,
+        };
+        let mut gaps = network.gaps()?.into_iter().map(DVec3::length);
+        if gaps.all(|gap| gap <= STORED * CLOSED * size) {
+            Ok(network)
+        } else {
+            Err(Error::Stored {
+                what: "crossings of a network",
+            })
+        }
+    }
+}
+
 fn length(ribbon: &SpatialRibbon) -> f64 {
     let s = ribbon.arc_lengths();
     s[s.len() - 1] - s[0]
@@ -250,6 +310,7 @@ fn check(ribbons: &[SpatialRibbon], crossings: &[Crossing]) -> Result<(), Error>
 mod tests {
     use super::*;
     use crate::testing::Noise;
+    use crate::{EndCondition, TangentMethod};
 
     /// Great circles of the unit sphere through given points: ribbons laid on a ball.
     fn arc(
@@ -332,6 +393,53 @@ mod tests {
         let again =
             RibbonNetwork::new(network.ribbons().to_vec(), network.crossings().to_vec()).unwrap();
         assert!(again.largest_turn() < 1e-9);
+    }
+
+    /// The corrected ribbons are what their tangents give by the method and with the ends that they came with.
+    #[test]
+    fn ribbons_keep_their_method_and_ends() {
+        let bent = |h: f64, method, end| {
+            let s: Vec<f64> = (0..12).map(|i| 0.09 * f64::from(i)).collect();
+            let from = DVec3::new(1.0, -0.5, h).normalize();
+            let across = (DVec3::Y - from * from.y).normalize();
+            let tangent = |(i, s): (usize, &f64)| {
+                across * s.cos() - from * s.sin() + DVec3::Z * (0.02 * ((i * 7 % 5) as f64 - 2.0))
+            };
+            let tangents: Vec<DVec3> = s.iter().enumerate().map(tangent).collect();
+            SpatialRibbon::with_method(&s, &tangents, method, end).unwrap()
+        };
+        let crossings = [[0.1, 0.12], [0.8, 0.85]].map(|s| Crossing { ribbons: [0, 1], s });
+        for (method, end) in [
+            (TangentMethod::Projected, EndCondition::Natural),
+            (TangentMethod::SphericalSpline, EndCondition::NotAKnot),
+        ] {
+            let ribbons = vec![bent(0.0, method, end), bent(0.1, method, end)];
+            let network = RibbonNetwork::new(ribbons.clone(), crossings.to_vec()).unwrap();
+            assert!(network.gap_before() > 1e-4, "{}", network.gap_before());
+            // A crossing listed twice, also the other way round, says nothing new.
+            let mut twice = crossings.to_vec();
+            let [s, t] = crossings[0].s;
+            twice.extend([
+                crossings[1],
+                Crossing {
+                    ribbons: [1, 0],
+                    s: [t, s],
+                },
+            ]);
+            let again = RibbonNetwork::new(ribbons, twice).unwrap();
+            assert_eq!(again.ribbons(), network.ribbons());
+            for ribbon in network.ribbons() {
+                assert_eq!(ribbon.method(), method);
+                let again = SpatialRibbon::with_method(
+                    ribbon.arc_lengths(),
+                    ribbon.tangents(),
+                    method,
+                    end,
+                );
+                let (a, b) = (ribbon.points()[11], again.unwrap().points()[11]);
+                assert!(a.distance(b) < 1e-12, "{}", a.distance(b));
+            }
+        }
     }
 
     #[test]

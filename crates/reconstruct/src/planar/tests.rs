@@ -86,6 +86,11 @@ fn a_noisy_ellipse_closes_with_its_length() {
     assert!(ribbon.closing_error().length() > 1e-4);
     assert!((ribbon.points()[n as usize]).length() < 6e-12);
     assert!(ribbon.largest_adjustment() < 0.05);
+    // Periodic but for the full turn that the curve makes.
+    for around in [-2.0, 1.0, 3.0] {
+        let turned = ribbon.angle(0.3 + 6.0 * around) - around * TAU;
+        assert!((turned - ribbon.angle(0.3)).abs() < 1e-12);
+    }
     let straight = ClosedPlanarRibbon::new(&s, &vec![0.2; n as usize], 6.0);
     assert!(
         matches!(straight, Err(Error::NoConvergence { .. })),

@@ -92,6 +92,63 @@ fn sensitivity_is_the_derivative() {
     }
 }
 
+/// Also beyond the ends, and of the spherical spline as far as its ends go, whatever the caller's condition.
+#[test]
+fn sensitivity_of_either_method_and_beyond_the_ends() {
+    let s: Vec<f64> = (0..9).map(|i| 0.25 * f64::from(i)).collect();
+    let tangents: Vec<DVec3> = s
+        .iter()
+        .map(|x| DVec3::new((0.7 * x).cos(), (0.7 * x).sin(), 0.3 * (0.5 * x).cos()).normalize())
+        .collect();
+    for (method, end, places, bound) in [
+        (
+            TangentMethod::SphericalSpline,
+            EndCondition::NotAKnot,
+            vec![2.0],
+            5e-3,
+        ),
+        (
+            TangentMethod::SphericalSpline,
+            EndCondition::Natural,
+            vec![2.0],
+            5e-3,
+        ),
+        (
+            TangentMethod::Projected,
+            EndCondition::NotAKnot,
+            vec![-0.2, 1.1, 2.0, 2.3],
+            1e-6,
+        ),
+        (
+            TangentMethod::Projected,
+            EndCondition::Natural,
+            vec![-0.2, 1.1, 2.0, 2.3],
+            1e-6,
+        ),
+    ] {
+        let ribbon = SpatialRibbon::with_method(&s, &tangents, method, end).unwrap();
+        for at in places {
+            let matrices = ribbon.sensitivity(at);
+            for j in 0..s.len() {
+                let across = tangents[j].any_orthonormal_vector();
+                let moved = |step: f64| {
+                    let mut moved = tangents.clone();
+                    moved[j] += across * step;
+                    let ribbon = SpatialRibbon::with_method(&s, &moved, method, end).unwrap();
+                    ribbon.point(at).unwrap()
+                };
+                let difference = (moved(1e-5) - moved(-1e-5)) / 2e-5;
+                let error = (difference - matrices[j] * across).length();
+                assert!(
+                    error < bound * difference.length().max(1e-2),
+                    "{method:?} {end:?} {at} {j}: {error}"
+                );
+            }
+        }
+        assert!(ribbon.sensitivity(f64::NAN).iter().all(|m| m.is_nan()));
+    }
+}
+
 #[test]
 fn covariance_agrees_with_simulation() {
     let (s, tangents) = data(16);
@@ -120,6 +177,11 @@ fn covariance_agrees_with_simulation() {
 #[test]
 fn hostile_data() {
     let s = [0.0, 1.0, 2.0];
+    for size in [1e-300, 1e300] {
+        let long = [DVec3::new(3.0, 4.0, 0.0) * size, DVec3::Y, DVec3::Z];
+        let ribbon = SpatialRibbon::new(&s, &long).unwrap();
+        assert!((ribbon.tangents()[0] - DVec3::new(0.6, 0.8, 0.0)).length() < 1e-15);
+    }
     let bad = |tangents: [DVec3; 3]| SpatialRibbon::new(&s, &tangents);
     assert!(matches!(
         bad([DVec3::X, -DVec3::X, DVec3::Y]),

@@ -42,7 +42,24 @@ impl Channel {
             });
         }
         let knots: Vec<f64> = mine.iter().map(|i| sensors[*i].s).collect();
-        let system = SplineSystem::new(&knots, EndCondition::NotAKnot)?;
+        // Places are counted among all sensors, not only these.
+        let system =
+            SplineSystem::new(&knots, EndCondition::NotAKnot).map_err(|error| match error {
+                Error::NotIncreasing {
+                    index,
+                    previous,
+                    next,
+                } => Error::NotIncreasing {
+                    index: mine[index],
+                    previous,
+                    next,
+                },
+                Error::NonFinite { what, index } => Error::NonFinite {
+                    what,
+                    index: mine[index],
+                },
+                other => other,
+            })?;
         let everywhere = places.iter().map(|s| stencil(&knots, *s)).collect();
         Ok(Self {
             sensors: mine,

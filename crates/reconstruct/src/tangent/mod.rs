@@ -15,7 +15,7 @@ use triad::{tangent_derivatives, triad};
 pub use tangents::Tangents;
 
 use crate::Error;
-use crate::sensor::{PARALLEL_FIELDS, Sensor, SensorKind, WorldFields};
+use crate::sensor::{PARALLEL_FIELDS, ReadingFault, Sensor, SensorKind, WorldFields};
 use glam::{DMat3, DVec3};
 use nalgebra::DMatrix;
 
@@ -24,6 +24,10 @@ const NEEDED: usize = 3;
 /// Smallest component of gravity normal to the ribbon with which the missing axis of a two-axis magnetometer
 /// follows from the dip; below it the field's unit length decides, with a sign continued along the ribbon.
 const NORMAL_GRAVITY: f64 = 0.1;
+/// Part of the expected field by which a completed two-axis reading may differ from it, as for three axes.
+const FIELD_SLACK: f64 = 0.5;
+/// Error of a reading, in parts of the field, that is not held against it: sensors of this class err by some hundredths.
+const READING_ERROR: f64 = 0.05;
 /// An interpolated field vector shorter than this has lost its direction.
 const NEAR_ZERO: f64 = 0.1;
 
@@ -44,6 +48,11 @@ const NEAR_ZERO: f64 = 0.1;
 /// # Ok::<(), reconstruct::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredLayout", into = "StoredLayout")
+)]
 pub struct RibbonLayout {
     sensors: Vec<Sensor>,
     world: WorldFields,
@@ -53,6 +62,33 @@ pub struct RibbonLayout {
     magnetic: Channel,
     /// For every magnetometer, how to evaluate gravity at its place.
     gravity_at_magnetometers: Vec<Stencil>,
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename = "RibbonLayout")]
+struct StoredLayout {
+    sensors: Vec<Sensor>,
+    world: WorldFields,
+}
+
+#[cfg(feature = "serde")]
+impl From<RibbonLayout> for StoredLayout {
+    fn from(layout: RibbonLayout) -> Self {
+        Self {
+            sensors: layout.sensors,
+            world: layout.world,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredLayout> for RibbonLayout {
+    type Error = Error;
+
+    fn try_from(stored: StoredLayout) -> Result<Self, Error> {
+        Self::new(stored.sensors, stored.world)
+    }
 }
 
 /// Buffers of one reconstruction, to be reused.
@@ -220,6 +256,7 @@ impl RibbonLayout {
     /// normal to the ribbon, else from the field's unit length with the sign nearest to the neighbour's.
     fn complete_two_axis(&self, scratch: &mut Scratch) -> Result<(), Error> {
         let dip = self.world.up().dot(self.world.magnetic());
+        let horizontal = self.world.up().cross(self.world.magnetic()).length();
         let mut before: Option<f64> = None;
         for (i, &sensor) in self.magnetic.sensors.iter().enumerate() {
             if self.sensors[sensor].kind == SensorKind::MagnetometerTwoAxis {
@@ -237,10 +274,27 @@ impl RibbonLayout {
                     length: 0.0,
                 })?;
                 let m = &mut scratch.magnetic[i];
-                let from_dip = |a: DVec3| (dip - a.x * m.x - a.y * m.y) / a.z;
+                let measured = a.x * m.x + a.y * m.y;
+                let lost = |magnitude: f64| Error::Reading {
+                    sensor,
+                    fault: ReadingFault::FieldLost { magnitude },
+                };
+                let from_dip = |a: DVec3| (dip - measured) / a.z;
                 m.z = if a.z.abs() > NORMAL_GRAVITY {
-                    from_dip(a)
+                    let completed = DVec3::new(m.x, m.y, from_dip(a));
+                    // The dip is met by construction; what is left to check is the horizontal part.
+                    let part = (completed - a * dip).length();
+                    let slack = FIELD_SLACK * horizontal + READING_ERROR / a.z.abs();
+                    if !((part - horizontal).abs() <= slack) {
+                        return Err(lost(part / horizontal));
+                    }
+                    completed.z
                 } else {
+                    // What is missing of the dip must not be more than the third axis can add.
+                    let slack = FIELD_SLACK * dip.abs() + READING_ERROR + a.z.abs();
+                    if !((measured - dip).abs() <= slack) {
+                        return Err(lost((measured / dip).abs()));
+                    }
                     let size = (1.0 - m.x * m.x - m.y * m.y).max(0.0).sqrt();
                     size.copysign(
                         before.unwrap_or_else(|| if a.z == 0.0 { 1.0 } else { from_dip(a) }),

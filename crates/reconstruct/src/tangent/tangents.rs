@@ -6,10 +6,76 @@ use nalgebra::DMatrix;
 
 /// Unit tangents at given arc lengths, with how they depend on the readings.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "StoredTangents", into = "StoredTangents")
+)]
 pub struct Tangents {
     pub(super) s: Vec<f64>,
     pub(super) values: Vec<DVec3>,
     pub(super) sensitivity: DMatrix<f64>,
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename = "Tangents")]
+struct StoredTangents {
+    s: Vec<f64>,
+    values: Vec<DVec3>,
+    /// Column by column, three rows a tangent.
+    sensitivity: Vec<f64>,
+}
+
+#[cfg(feature = "serde")]
+impl From<Tangents> for StoredTangents {
+    fn from(tangents: Tangents) -> Self {
+        Self {
+            s: tangents.s,
+            values: tangents.values,
+            sensitivity: tangents.sensitivity.as_slice().to_vec(),
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredTangents> for Tangents {
+    type Error = Error;
+
+    fn try_from(stored: StoredTangents) -> Result<Self, Error> {
+        let StoredTangents {
+            s,
+            values,
+            sensitivity,
+        } = stored;
+        crate::spline::check_increasing(&s)?;
+        if values.len() != s.len() {
+            return Err(Error::LengthMismatch {
+                what: "tangents",
+                expected: s.len(),
+                got: values.len(),
+            });
+        }
+        if !values.iter().all(|t| t.is_normalized()) {
+            return Err(Error::Stored {
+                what: "lengths of unit tangents",
+            });
+        }
+        // Three coordinates a tangent by three a sensor.
+        let whole = sensitivity.len().is_multiple_of(9 * s.len());
+        if !(whole && sensitivity.iter().all(|x| x.is_finite())) {
+            return Err(Error::Stored {
+                what: "derivatives by the readings",
+            });
+        }
+        let columns = sensitivity.len() / (3 * s.len());
+        let sensitivity = DMatrix::from_vec(3 * s.len(), columns, sensitivity);
+        Ok(Self {
+            s,
+            values,
+            sensitivity,
+        })
+    }
 }
 
 impl Tangents {

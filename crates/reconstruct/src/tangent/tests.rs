@@ -145,3 +145,60 @@ fn impossible_readings_are_named() {
         Err(Error::TooFew { .. })
     ));
 }
+
+/// A field that is gone, too weak or too strong is noticed without the third axis, on a flat and on an upright ribbon.
+#[test]
+fn a_lost_field_is_noticed_with_two_axes() {
+    let layout = layout(16, 0.8, SensorKind::MagnetometerTwoAxis);
+    let flat = |s: f64| {
+        let x = DVec3::new((0.9 * s).cos(), (0.9 * s).sin(), 0.1 * s).normalize();
+        let y = DVec3::Z.cross(x).normalize();
+        DMat3::from_cols(x, y, x.cross(y))
+    };
+    let upright = |s: f64| {
+        let x = DVec3::new(0.4 * s, (1.0 - 0.16 * s * s).sqrt(), 0.0);
+        DMat3::from_cols(x, DVec3::Z, x.cross(DVec3::Z))
+    };
+    let frames: [&dyn Fn(f64) -> DMat3; 2] = [&flat, &upright];
+    for frame in frames {
+        let read = |factor: f64| -> Vec<DVec3> {
+            let field = |sensor: &Sensor| {
+                if sensor.is_magnetometer() {
+                    layout.world.magnetic() * factor
+                } else {
+                    layout.world.up()
+                }
+            };
+            let sensors = layout.sensors.iter();
+            sensors
+                .map(|sensor| frame(sensor.s).transpose() * field(sensor))
+                .collect()
+        };
+        for factor in [0.8, 1.0, 1.2] {
+            assert!(layout.tangents(&read(factor)).is_ok(), "{factor}");
+        }
+        for factor in [0.0, 0.1, 3.0] {
+            assert!(
+                matches!(
+                    layout.tangents(&read(factor)),
+                    Err(Error::Reading {
+                        sensor: 1,
+                        fault: ReadingFault::FieldLost { .. }
+                    })
+                ),
+                "{factor}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_misplaced_sensor_is_counted_among_all() {
+    let kinds = [SensorKind::Accelerometer, SensorKind::Magnetometer];
+    let place = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.05];
+    let sensors = (0..8).map(|i| Sensor::new(place[i], kinds[i % 2]));
+    assert!(matches!(
+        RibbonLayout::new(sensors, WorldFields::with_dip(1.08).unwrap()),
+        Err(Error::NotIncreasing { index: 7, .. })
+    ));
+}
