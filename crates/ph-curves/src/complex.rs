@@ -36,6 +36,12 @@ pub(crate) fn unit(turn: DVec2) -> Result<DVec2, Error> {
     Ok((turn / size).normalize())
 }
 
+/// Whether a vector has length 1 to rounding.
+#[cfg(feature = "serde")]
+pub(crate) fn is_unit(vector: DVec2) -> bool {
+    (vector.length_squared() - 1.0).abs() <= 8.0 * f64::EPSILON
+}
+
 /// Principal square root (non-negative real part), without overflow or cancellation.
 #[inline]
 pub(crate) fn sqrt(z: DVec2) -> DVec2 {

@@ -28,6 +28,7 @@ pub struct Break {
 
 /// The side from which a one-sided limit is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Side {
     /// From smaller parameters: arriving.
     Before,
