@@ -67,7 +67,7 @@ pub(super) fn without_common_factor(lines: &[DVec3]) -> Option<Vec<DVec3>> {
         .iter()
         .find(|u| u.abs().max_element() > PIVOT * size)?;
     for class in 2..lines.len().saturating_sub(1) {
-        if let Some(reduced) = parallel(lines, class) {
+        if let Some(reduced) = parallel(lines, class).filter(|reduced| divides(reduced, lines)) {
             let start = *reduced.first()?;
             let scale = (size / largest(&reduced)).copysign(start.dot(*first));
             return Some(reduced.iter().map(|u| *u * scale).collect());
@@ -93,18 +93,40 @@ pub(super) fn is_one_line(lines: &[DVec3]) -> bool {
 
 /// The only solution `V` of degree `class` of the linear equations `U(t) x V(t) = 0`.
 fn parallel(lines: &[DVec3], class: usize) -> Option<Vec<DVec3>> {
-    let mut columns = Vec::with_capacity(3 * (class + 1));
-    for k in 0..=class {
-        for axis in DVec3::AXES {
+    let columns = (0..=class)
+        .flat_map(|k| DVec3::AXES.map(|axis| (k, axis)))
+        .map(|(k, axis)| {
             let mut basis = vec![DVec3::ZERO; class + 1];
             basis[k] = axis;
-            let product = bernstein::product_with(lines, &basis, |a, b| a.cross(*b));
-            let column: Vec<f64> = product.iter().flat_map(DVec3::to_array).collect();
-            columns.push(column);
-        }
-    }
+            flat(&bernstein::product_with(lines, &basis, |a, b| a.cross(*b)))
+        })
+        .collect();
     let solution = kernel(columns)?;
     Some(solution.chunks_exact(3).map(DVec3::from_slice).collect())
+}
+
+/// Whether these lines are the reduced ones times a polynomial, to rounding.
+fn divides(reduced: &[DVec3], lines: &[DVec3]) -> bool {
+    let degree = lines.len() - reduced.len();
+    let mut columns: Vec<Vec<f64>> = (0..=degree)
+        .map(|k| {
+            let mut basis = vec![0.0; degree + 1];
+            basis[k] = 1.0;
+            flat(&bernstein::product(&basis, reduced))
+        })
+        .collect();
+    columns.push(flat(lines));
+    let Some(factors) = kernel(columns.clone()) else {
+        return false;
+    };
+    let remainder = (0..3 * lines.len())
+        .map(|i| columns.iter().zip(&factors).map(|(c, f)| c[i] * f).sum())
+        .fold(0.0, |most: f64, entry: f64| most.max(entry.abs()));
+    remainder <= PIVOT * largest(lines) * factors[degree + 1].abs()
+}
+
+fn flat(vectors: &[DVec3]) -> Vec<f64> {
+    vectors.iter().flat_map(DVec3::to_array).collect()
 }
 
 /// The factors with which these columns add up to zero, if there is one choice but for scale: elimination

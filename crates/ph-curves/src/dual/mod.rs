@@ -237,14 +237,28 @@ impl DualCurve {
             });
         }
         let lines = events::point_control(control);
-        let (scaled, unit) = normalised(&lines);
-        if lines.iter().any(|u| *u != DVec3::ZERO) && common_factor::is_one_line(&scaled) {
+        let straight = common_factor::is_one_line(&normalised(&lines).0);
+        if straight && lines.iter().any(|u| *u != DVec3::ZERO) {
             return Err(Error::NoTurning { turning: 0.0 });
         }
+        // About an origin near to the curve the factor keeps its digits.
+        let sum: DVec3 = control.iter().copied().sum();
+        let centre = DVec2::new(sum.y, sum.z) / sum.x;
+        let centre = if centre.is_finite() {
+            centre
+        } else {
+            DVec2::ZERO
+        };
+        let local: Vec<DVec3> = control
+            .iter()
+            .map(|x| *x - DVec3::new(0.0, x.x * centre.x, x.x * centre.y))
+            .collect();
+        let (scaled, unit) = normalised(&events::point_control(&local));
         match common_factor::without_common_factor(&scaled) {
             Some(reduced) => {
                 let plane = DVec3::new(unit, 1.0, 1.0);
-                Self::from_vectors(&reduced.iter().map(|u| *u * plane).collect::<Vec<_>>())
+                let reduced: Vec<DVec3> = reduced.iter().map(|u| *u * plane).collect();
+                Self::from_vectors(&reduced)?.translate(centre)
             }
             None => Self::from_vectors(&lines),
         }
