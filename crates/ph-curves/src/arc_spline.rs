@@ -25,6 +25,10 @@ pub enum Joint {
 /// loops; see [`ArcSpline::trimmed_offset`].
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "StoredSpline", into = "StoredSpline")
+)]
 pub struct ArcSpline {
     pub(crate) pieces: Vec<Piece>,
     pub(crate) joints: Vec<Joint>,
@@ -104,5 +108,83 @@ impl ArcSpline {
     /// [`Error::NonFinite`] if coefficients overflow.
     pub fn to_beziers(&self) -> Result<Vec<BezierCurve<DVec2>>, Error> {
         self.pieces.iter().map(Piece::to_bezier).collect()
+    }
+}
+
+/// Largest distance of two pieces at a joint that is read, relative to the largest coordinate: that of the computed
+/// crossings of a trimmed offset.
+#[cfg(feature = "serde")]
+const GAP: f64 = 1e-6;
+
+/// The form in which a spline is serialized.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct StoredSpline {
+    pieces: Vec<Piece>,
+    joints: Vec<Joint>,
+    closed: bool,
+}
+
+#[cfg(feature = "serde")]
+impl From<ArcSpline> for StoredSpline {
+    fn from(spline: ArcSpline) -> Self {
+        Self {
+            pieces: spline.pieces,
+            joints: spline.joints,
+            closed: spline.closed,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredSpline> for ArcSpline {
+    type Error = Error;
+
+    fn try_from(stored: StoredSpline) -> Result<Self, Error> {
+        let StoredSpline {
+            pieces,
+            joints,
+            closed,
+        } = stored;
+        let count = pieces.len();
+        if count == 0 {
+            return Err(Error::TooFew {
+                what: "pieces",
+                given: 0,
+                needed: 1,
+            });
+        }
+        if joints.len() + usize::from(!closed) != count {
+            return Err(Error::JointCount {
+                pieces: count,
+                joints: joints.len(),
+                closed,
+            });
+        }
+        let ends: Vec<[DVec2; 2]> = pieces
+            .iter()
+            .map(|piece| [piece.point(0.0), piece.point(1.0)])
+            .collect();
+        if !ends.iter().flatten().all(|end| end.is_finite()) {
+            return Err(Error::NonFinite {
+                what: "an end of a piece",
+            });
+        }
+        let size = ends
+            .iter()
+            .flatten()
+            .map(|end| end.abs().max_element())
+            .fold(0.0, f64::max);
+        for index in 0..joints.len() {
+            let distance = ends[index][1].distance(ends[(index + 1) % count][0]);
+            if distance > GAP * size {
+                return Err(Error::Gap { index, distance });
+            }
+        }
+        Ok(Self {
+            pieces,
+            joints,
+            closed,
+        })
     }
 }

@@ -3,6 +3,8 @@
 use bezier_mass::bernstein;
 use glam::{DVec2, DVec3};
 
+#[cfg(feature = "serde")]
+use crate::complex::is_unit;
 use crate::complex::{conj, sqrt, square};
 use crate::{Error, TCubic, TQuartic};
 
@@ -17,6 +19,10 @@ const LEAST_ALPHA: f64 = 1e-6;
 /// A point with the unit normal of the curve there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "StoredElement", into = "StoredElement")
+)]
 pub struct LineElement {
     point: DVec2,
     normal: DVec2,
@@ -57,6 +63,36 @@ impl LineElement {
     }
 }
 
+/// The form in which a line element is serialized.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct StoredElement {
+    point: DVec2,
+    normal: DVec2,
+}
+
+#[cfg(feature = "serde")]
+impl From<LineElement> for StoredElement {
+    fn from(LineElement { point, normal }: LineElement) -> Self {
+        Self { point, normal }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredElement> for LineElement {
+    type Error = Error;
+
+    fn try_from(stored: StoredElement) -> Result<Self, Error> {
+        let element = Self::new(stored.point, stored.normal)?;
+        // A unit normal comes back as it was.
+        Ok(if is_unit(stored.normal) {
+            Self::from_unit(stored.point, stored.normal)
+        } else {
+            element
+        })
+    }
+}
+
 /// Two line elements to be joined by an arc of class 3: the data of the G1 problem.
 ///
 /// Every positive `alpha` gives one arc. Its first two Bézier lines pass through the start point and its
@@ -73,6 +109,11 @@ impl LineElement {
 /// # Ok::<(), ph_curves::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "[LineElement; 2]", into = "[LineElement; 2]")
+)]
 pub struct G1Ends {
     start: LineElement,
     end: LineElement,
@@ -81,6 +122,20 @@ pub struct G1Ends {
     cos_h: f64,
     sin_h: f64,
     legs: (f64, f64),
+}
+
+impl TryFrom<[LineElement; 2]> for G1Ends {
+    type Error = Error;
+
+    fn try_from([start, end]: [LineElement; 2]) -> Result<Self, Error> {
+        Self::new(start, end)
+    }
+}
+
+impl From<G1Ends> for [LineElement; 2] {
+    fn from(ends: G1Ends) -> Self {
+        [ends.start, ends.end]
+    }
 }
 
 impl G1Ends {

@@ -5,6 +5,8 @@
 
 use glam::DVec2;
 
+use crate::Error;
+
 /// Complex conjugate.
 #[inline]
 pub(crate) fn conj(z: DVec2) -> DVec2 {
@@ -20,6 +22,24 @@ pub(crate) fn square(z: DVec2) -> DVec2 {
 /// Complex quotient.
 pub(crate) fn divide(a: DVec2, b: DVec2) -> DVec2 {
     conj(b).rotate(a) / b.length_squared()
+}
+
+/// The complex number of length 1 with the argument of `turn`, whatever its size.
+pub(crate) fn unit(turn: DVec2) -> Result<DVec2, Error> {
+    if !turn.is_finite() {
+        return Err(Error::NonFinite { what: "a turn" });
+    }
+    let size = turn.abs().max_element();
+    if size == 0.0 {
+        return Err(Error::ZeroDirection { what: "a turn" });
+    }
+    Ok((turn / size).normalize())
+}
+
+/// Whether a vector has length 1 to rounding.
+#[cfg(feature = "serde")]
+pub(crate) fn is_unit(vector: DVec2) -> bool {
+    (vector.length_squared() - 1.0).abs() <= 8.0 * f64::EPSILON
 }
 
 /// Principal square root (non-negative real part), without overflow or cancellation.

@@ -18,6 +18,7 @@ use crate::{Break, BreakKind, Enclosure, Error, PlaneCurve, Side};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "StoredPath", into = "StoredPath"))]
 pub struct CubicPath {
     cubics: Vec<[DVec2; 4]>,
     closed: bool,
@@ -155,6 +156,33 @@ impl CubicPath {
             cubics,
             closed: self.closed,
         }
+    }
+}
+
+/// The form in which a path is serialized.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct StoredPath {
+    cubics: Vec<[DVec2; 4]>,
+    closed: bool,
+}
+
+#[cfg(feature = "serde")]
+impl From<CubicPath> for StoredPath {
+    fn from(path: CubicPath) -> Self {
+        Self {
+            cubics: path.cubics,
+            closed: path.closed,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredPath> for CubicPath {
+    type Error = Error;
+
+    fn try_from(stored: StoredPath) -> Result<Self, Error> {
+        Self::new(stored.cubics, stored.closed)
     }
 }
 

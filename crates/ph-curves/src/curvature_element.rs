@@ -15,6 +15,10 @@ pub(crate) const EQUAL_RADII: f64 = 1e-9;
 /// outward one. It is finite and not zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "StoredElement", into = "StoredElement")
+)]
 pub struct CurvatureElement {
     line: LineElement,
     radius: f64,
@@ -71,6 +75,34 @@ impl CurvatureElement {
     #[must_use]
     pub fn centre(&self) -> DVec2 {
         self.point() - self.radius * self.normal()
+    }
+}
+
+/// The form in which a curvature element is serialized.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct StoredElement {
+    line: LineElement,
+    radius: f64,
+}
+
+#[cfg(feature = "serde")]
+impl From<CurvatureElement> for StoredElement {
+    fn from(CurvatureElement { line, radius }: CurvatureElement) -> Self {
+        Self { line, radius }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredElement> for CurvatureElement {
+    type Error = Error;
+
+    fn try_from(stored: StoredElement) -> Result<Self, Error> {
+        let element = Self::new(stored.line.point(), stored.line.normal(), stored.radius)?;
+        Ok(Self {
+            line: stored.line,
+            ..element
+        })
     }
 }
 

@@ -32,6 +32,16 @@ pub enum Error {
         /// Number of Farin lines.
         farin: usize,
     },
+    /// The number of joints of a spline is not that of its pieces less one, or that of its pieces if it is closed.
+    #[error("{joints} joints do not fit {pieces} pieces of a spline that is {}", if *closed { "closed" } else { "open" })]
+    JointCount {
+        /// Number of pieces.
+        pieces: usize,
+        /// Number of joints.
+        joints: usize,
+        /// Whether the spline is closed.
+        closed: bool,
+    },
     /// Two consecutive Bézier lines coincide, or a Farin line coincides with one of them.
     #[error("Bézier lines {index} and {} coincide with each other or with their Farin line: the weights are undefined", index + 1)]
     CoincidentLines {

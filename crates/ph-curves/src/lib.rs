@@ -56,7 +56,8 @@
 //!
 //! # Features
 //!
-//! `serde`: all value types. `kurbo`: [`CubicPath`] from, [`ArcSpline`] to kurbo's paths.
+//! `serde`: all value types but those that hold a motion or an oval made from others ([`Cam`], [`EvolutePolygon`],
+//! [`Antisymmetric`], [`MinkowskiPlane`], [`ConstantMinkowskiWidth`]); what is read goes through the constructors. `kurbo`: [`CubicPath`] from, [`ArcSpline`] to kurbo's paths.
 //!
 //! # Left open
 //!

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::Error;
+use crate::complex::unit;
 
 /// The line `u0 + u1 x + u2 y = 0` with normal `(u1, u2)`, not necessarily of unit length.
 ///
@@ -14,7 +15,7 @@ use crate::Error;
 /// use ph_curves::{Line, glam::DVec2};
 /// let wall = Line::through(DVec2::new(2.0, 0.0), DVec2::X)?;
 /// assert_eq!(wall.support()?, 2.0);
-/// assert_eq!(wall.offset(0.5).support()?, 2.5);
+/// assert_eq!(wall.offset(0.5)?.support()?, 2.5);
 /// # Ok::<(), ph_curves::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +43,11 @@ impl Line {
             });
         }
         Self::new(-normal.dot(point), normal.x, normal.y)
+    }
+
+    /// The line with coordinates that are known to be valid.
+    pub(crate) const fn unchecked(coordinates: DVec3) -> Self {
+        Self(coordinates)
     }
 
     /// `(u0, u1, u2)`.
@@ -85,30 +91,30 @@ impl Line {
     }
 
     /// The parallel line at signed distance `distance` along the normal.
-    #[must_use]
-    pub fn offset(self, distance: f64) -> Self {
-        Self(DVec3::new(
-            self.0.x - distance * self.normal().length(),
-            self.0.y,
-            self.0.z,
-        ))
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] if the distance is not finite or the coordinates overflow.
+    pub fn offset(self, distance: f64) -> Result<Self, Error> {
+        let length = self.0.y.hypot(self.0.z);
+        Self::new(self.0.x - distance * length, self.0.y, self.0.z)
     }
 
     /// The line moved by `vector`.
-    #[must_use]
-    pub fn translate(self, vector: DVec2) -> Self {
-        Self(DVec3::new(
-            self.0.x - self.normal().dot(vector),
-            self.0.y,
-            self.0.z,
-        ))
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`] if the vector is not finite or the coordinates overflow.
+    pub fn translate(self, vector: DVec2) -> Result<Self, Error> {
+        let u0 = self.0.x - self.normal().dot(vector);
+        Self::new(u0, self.0.y, self.0.z)
     }
 
-    /// The line turned about the origin by the argument of the unit complex number `turn`.
-    #[must_use]
-    pub fn rotate(self, turn: DVec2) -> Self {
-        let normal = turn.rotate(self.normal());
-        Self(DVec3::new(self.0.x, normal.x, normal.y))
+    /// The line turned about the origin by the argument of the complex number `turn`.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`]; [`Error::ZeroDirection`] if `turn` is zero.
+    pub fn rotate(self, turn: DVec2) -> Result<Self, Error> {
+        let normal = unit(turn)?.rotate(self.normal());
+        Self::new(self.0.x, normal.x, normal.y)
     }
 
     /// The mirror image in the finite line `mirror`: `n -> n - 2k nu`, `u0 -> u0 + 2ck`, `k = <n, nu>`
@@ -162,7 +168,7 @@ mod tests {
     fn parallels_keep_their_distance_under_any_weight() {
         for weight in [1.0, 1e-7, 3e9] {
             let line = Line::new(-2.0 * weight, 0.6 * weight, 0.8 * weight).unwrap();
-            assert!((line.offset(0.25).support().unwrap() - 2.25).abs() < 1e-15);
+            assert!((line.offset(0.25).unwrap().support().unwrap() - 2.25).abs() < 1e-15);
         }
     }
 
@@ -186,5 +192,21 @@ mod tests {
         let infinity = Line::new(1.0, 0.0, 0.0).unwrap();
         assert!(infinity.support().is_err() && infinity.signed_distance(DVec2::X).is_err());
         assert!(Line::through(DVec2::ZERO, DVec2::ZERO).is_err());
+        assert!(infinity.rotate(DVec2::ZERO).is_err());
+    }
+
+    #[test]
+    fn a_motion_never_makes_an_invalid_line() {
+        let line = Line::new(-2.0, 0.6, 0.8).unwrap();
+        for bad in [f64::NAN, f64::INFINITY] {
+            assert!(line.offset(bad).is_err());
+            assert!(line.translate(DVec2::new(bad, 0.0)).is_err());
+            assert!(line.rotate(DVec2::new(bad, 0.0)).is_err());
+        }
+        let far = Line::new(-1e308, 1.0, 0.0).unwrap();
+        assert!(far.translate(DVec2::splat(1e308)).is_err());
+        // Only the argument of the turn counts.
+        let turned = line.rotate(DVec2::new(0.0, 3e200)).unwrap();
+        assert_eq!(turned.coordinates(), DVec3::new(-2.0, -0.8, 0.6));
     }
 }

@@ -23,6 +23,10 @@ pub enum SplineEnds {
 /// A curve made of polynomial PH spans, each over a unit of the parameter, with its exact arc length throughout.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "Vec<PolynomialPh>", into = "Vec<PolynomialPh>")
+)]
 pub struct PhSpline {
     spans: Vec<PolynomialPh>,
     /// Arc length from the start to the end of each span.
@@ -152,6 +156,20 @@ impl PhSpline {
     fn length_before(&self, span: usize) -> f64 {
         span.checked_sub(1)
             .map_or(0.0, |previous| self.lengths[previous])
+    }
+}
+
+impl TryFrom<Vec<PolynomialPh>> for PhSpline {
+    type Error = Error;
+
+    fn try_from(spans: Vec<PolynomialPh>) -> Result<Self, Error> {
+        Self::try_new(spans)
+    }
+}
+
+impl From<PhSpline> for Vec<PolynomialPh> {
+    fn from(spline: PhSpline) -> Self {
+        spline.spans
     }
 }
 

@@ -116,6 +116,10 @@ impl<const N: usize> PlacedArc<N> {
 /// A straight segment of an [`ArcSpline`](crate::ArcSpline) with its unit normal, which stays when it shrinks or is offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "StoredSegment", into = "StoredSegment")
+)]
 pub struct Segment {
     pub(crate) start: DVec2,
     pub(crate) end: DVec2,
@@ -159,6 +163,47 @@ impl Segment {
     #[must_use]
     pub const fn normal(&self) -> DVec2 {
         self.normal
+    }
+}
+
+/// The form in which a segment is serialized. Its ends may be one point or the wrong way round, as in an offset.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct StoredSegment {
+    start: DVec2,
+    end: DVec2,
+    normal: DVec2,
+}
+
+#[cfg(feature = "serde")]
+impl From<Segment> for StoredSegment {
+    fn from(segment: Segment) -> Self {
+        Self {
+            start: segment.start,
+            end: segment.end,
+            normal: segment.normal,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredSegment> for Segment {
+    type Error = Error;
+
+    fn try_from(StoredSegment { start, end, normal }: StoredSegment) -> Result<Self, Error> {
+        let element = crate::LineElement::new(start, normal)?;
+        if !end.is_finite() {
+            return Err(Error::NonFinite {
+                what: "an end of a segment",
+            });
+        }
+        // A unit normal comes back as it was.
+        let normal = if crate::complex::is_unit(normal) {
+            normal
+        } else {
+            element.normal()
+        };
+        Ok(Self { start, end, normal })
     }
 }
 

@@ -28,6 +28,7 @@ pub struct Break {
 
 /// The side from which a one-sided limit is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Side {
     /// From smaller parameters: arriving.
     Before,
@@ -39,6 +40,10 @@ pub enum Side {
 ///
 /// Implement `spans`, `is_closed` and `jet`; the rest has numerical defaults, which the curves of this crate replace
 /// by certified ones. Spans follow each other without gaps; where their tangents differ there is a corner.
+///
+/// Corners and jumps of the curvature lie between spans only: within a span the jet has to be continuous. Nothing looks for
+/// breaks inside, and the error of an approximation, measured at a few samples of each piece, may then be reported far too
+/// small, even as zero: split such a curve into more spans.
 pub trait PlaneCurve {
     /// Number of spans.
     fn spans(&self) -> usize;

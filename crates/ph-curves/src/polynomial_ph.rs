@@ -11,6 +11,10 @@ use crate::{ArcLength, Error, kubota, quadrature};
 /// `w = u + i v`, `x' = h (u² - v²)` and `y' = 2 h u v`. The arc length is a polynomial, the offsets are rational.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "StoredCurve", into = "StoredCurve")
+)]
 pub struct PolynomialPh {
     factor: Vec<f64>,
     preimage: Vec<DVec2>,
@@ -204,6 +208,35 @@ fn is_non_negative(coefficients: &[f64]) -> bool {
         && allowed(1.0)
         && variation::roots(&bernstein::derivative(coefficients))
             .is_ok_and(|roots| roots.iter().all(|root| allowed(root.value())))
+}
+
+/// The form in which a curve is serialized: what it is made from.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct StoredCurve {
+    start: DVec2,
+    factor: Vec<f64>,
+    preimage: Vec<DVec2>,
+}
+
+#[cfg(feature = "serde")]
+impl From<PolynomialPh> for StoredCurve {
+    fn from(curve: PolynomialPh) -> Self {
+        Self {
+            start: curve.point(0.0),
+            factor: curve.factor,
+            preimage: curve.preimage,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<StoredCurve> for PolynomialPh {
+    type Error = Error;
+
+    fn try_from(stored: StoredCurve) -> Result<Self, Error> {
+        Self::with_factor(stored.start, stored.factor, stored.preimage)
+    }
 }
 
 #[cfg(test)]

@@ -24,6 +24,10 @@ use crate::{Break, BreakKind, Enclosure, Error, PlaneCurve, Side};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "Vec<BezierCurve<DVec2>>", into = "Vec<BezierCurve<DVec2>>")
+)]
 pub struct RationalPath {
     spans: Vec<BezierCurve<DVec2>>,
     closed: bool,
@@ -88,6 +92,20 @@ impl RationalPath {
     #[must_use]
     pub fn curves(&self) -> &[BezierCurve<DVec2>] {
         &self.spans
+    }
+}
+
+impl TryFrom<Vec<BezierCurve<DVec2>>> for RationalPath {
+    type Error = Error;
+
+    fn try_from(spans: Vec<BezierCurve<DVec2>>) -> Result<Self, Error> {
+        Self::new(spans)
+    }
+}
+
+impl From<RationalPath> for Vec<BezierCurve<DVec2>> {
+    fn from(path: RationalPath) -> Self {
+        path.spans
     }
 }
 

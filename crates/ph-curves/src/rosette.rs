@@ -16,7 +16,11 @@ use crate::{Contact, Error, PhArc};
 /// A rosette has *constant width* if the width function does not depend on `psi`; then its index is odd, each of its
 /// points belongs to an orthodiameter pair, and its perimeter is `π index` times the width (Barbier).
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "Vec<PhArc<N>>", into = "Vec<PhArc<N>>")
+)]
 pub struct Rosette<const N: usize> {
     arcs: Vec<PhArc<N>>,
     /// Normal angle at the start of each arc, and at the end of the last one.
@@ -40,6 +44,20 @@ pub struct Diameter {
 /// Joints must agree in position, and in radius, to this share of the curve's size: far above the rounding of the
 /// constructions (1e-13), far below anything that shows.
 const JOINT_TOLERANCE: f64 = 1e-8;
+
+impl<const N: usize> TryFrom<Vec<PhArc<N>>> for Rosette<N> {
+    type Error = Error;
+
+    fn try_from(arcs: Vec<PhArc<N>>) -> Result<Self, Error> {
+        Self::try_new(arcs)
+    }
+}
+
+impl<const N: usize> From<Rosette<N>> for Vec<PhArc<N>> {
+    fn from(rosette: Rosette<N>) -> Self {
+        rosette.arcs
+    }
+}
 
 impl<const N: usize> Rosette<N> {
     /// Closes a chain of arcs.

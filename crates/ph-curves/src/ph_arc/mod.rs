@@ -248,7 +248,8 @@ impl<const N: usize> PhArc<N> {
         past_start / (past_start + before_end)
     }
 
-    /// The parallel arc at signed distance `distance` along the normal; exact.
+    /// The parallel arc at signed distance `distance` along the normal; exact. A distance that is not finite, or an
+    /// overflow, gives supports that are not finite.
     #[must_use]
     pub fn offset(&self, distance: f64) -> Self {
         let circle = self.circle_coefficients();

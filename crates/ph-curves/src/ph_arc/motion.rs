@@ -3,11 +3,11 @@
 use glam::DVec2;
 
 use super::PhArc;
-use crate::complex::{conj, sqrt};
+use crate::complex::{conj, sqrt, unit};
 use crate::{Error, Line};
 
 impl<const N: usize> PhArc<N> {
-    /// The arc moved by `vector`.
+    /// The arc moved by `vector`. A vector that is not finite, or an overflow, gives supports that are not finite.
     #[must_use]
     pub fn translate(&self, vector: DVec2) -> Self {
         let normals = self.control_normals();
@@ -17,19 +17,21 @@ impl<const N: usize> PhArc<N> {
         }
     }
 
-    /// The arc turned about the origin by the argument of the unit complex number `turn`.
-    #[must_use]
-    pub fn rotate(&self, turn: DVec2) -> Self {
-        let half = sqrt(turn);
-        Self {
+    /// The arc turned about the origin by the argument of the complex number `turn`.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`]; [`Error::ZeroDirection`] if `turn` is zero.
+    pub fn rotate(&self, turn: DVec2) -> Result<Self, Error> {
+        let half = sqrt(unit(turn)?);
+        Ok(Self {
             w0: half.rotate(self.w0),
             w1: half.rotate(self.w1),
             g: self.g,
-        }
+        })
     }
 
     /// The arc scaled about the origin by `factor` (a negative factor keeps the normals and turns the
-    /// arc inside out).
+    /// arc inside out). A factor that is not finite, or an overflow, gives supports that are not finite.
     #[must_use]
     pub fn scale(&self, factor: f64) -> Self {
         Self {
@@ -165,7 +167,7 @@ mod tests {
         for t in [0.0, 0.6, 1.0] {
             let p = arc.point(t);
             assert!((arc.translate(vector).point(t) - p - vector).length() < 1e-14);
-            assert!((arc.rotate(turn).point(t) - turn.rotate(p)).length() < 1e-14);
+            assert!((arc.rotate(turn).unwrap().point(t) - turn.rotate(p)).length() < 1e-14);
             assert!((arc.scale(-2.0).point(t) + 2.0 * p).length() < 1e-14);
             assert!((arc.reflect(mirror).unwrap().point(t) - image(p)).length() < 1e-14);
             assert!((arc.reverse().point(1.0 - t) - p).length() < 1e-14);
@@ -173,6 +175,17 @@ mod tests {
             assert!((arc.flip().normal(t) + arc.normal(t)).length() < 1e-14);
         }
         assert!((arc.reflect(mirror).unwrap().turning() + arc.turning()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn only_the_argument_of_a_turn_counts() {
+        let arc = arc(1.4);
+        let turn = DVec2::from_angle(2.6);
+        let (a, b) = (arc.rotate(turn).unwrap(), arc.rotate(3.0 * turn).unwrap());
+        assert!((a.point(0.3) - b.point(0.3)).length() < 1e-14);
+        for bad in [DVec2::ZERO, DVec2::NAN, DVec2::INFINITY] {
+            assert!(arc.rotate(bad).is_err());
+        }
     }
 
     #[test]
