@@ -171,6 +171,16 @@ pub enum Error {
         /// How many are needed.
         needed: usize,
     },
+    /// More of something than can be handled.
+    #[error("{given} {what} given, at most {most} are possible")]
+    TooMany {
+        /// What there is too much of.
+        what: &'static str,
+        /// How many were given.
+        given: usize,
+        /// How many are possible.
+        most: usize,
+    },
     /// The parameter lies outside the domain.
     #[error("parameter {value} lies outside [{start}, {end}]")]
     OutsideDomain {
@@ -242,6 +252,14 @@ pub enum Error {
     NegativeSpeed {
         /// The coefficient.
         coefficient: f64,
+    },
+    /// A speed that is negative somewhere.
+    #[error("the speed at parameter {t} is {speed}: a length cannot decrease")]
+    RunsBackwards {
+        /// Parameter of the point.
+        t: f64,
+        /// The speed there.
+        speed: f64,
     },
     /// A span does not start where its predecessor ends.
     #[error("span {} starts {distance} away from the end of span {index}", index + 1)]
