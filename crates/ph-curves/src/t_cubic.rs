@@ -55,7 +55,10 @@ impl TCubic {
     /// `|D1^2 - D0 D2|` over the larger modulus, computed on legs of size one so that no square is lost.
     fn relative_defect(&self) -> f64 {
         let legs = self.legs();
-        let size = legs.iter().map(|d| d.length()).fold(0.0, f64::max);
+        let size = legs
+            .iter()
+            .map(|d| d.abs().max_element())
+            .fold(0.0, f64::max);
         if size == 0.0 {
             return 0.0;
         }
@@ -105,7 +108,8 @@ impl TCubic {
     /// The parameter is proportional to the abscissa. Light along the axis is focused in a point.
     ///
     /// # Errors
-    /// [`Error::NonFinite`]; [`Error::ZeroDirection`] for a zero direction or focal length.
+    /// [`Error::NonFinite`], also for rays so far out that the caustic overflows; [`Error::ZeroDirection`] for a zero
+    /// direction or focal length.
     pub fn parabola_caustic(
         focal_length: f64,
         direction: DVec2,
@@ -139,9 +143,13 @@ impl TCubic {
         let height = bernstein::product_with(&[x0, x1], &[x0, x1], |a, b| DVec2::new(0.0, a * b));
         let mirror = bernstein::elevate_to(&abscissa, 3);
         let height = bernstein::elevate_to(&height, 3);
-        Ok(Self {
-            points: std::array::from_fn(|k| (mirror[k] + height[k] + along[k]) * size),
-        })
+        let points: [DVec2; 4] = std::array::from_fn(|k| (mirror[k] + height[k] + along[k]) * size);
+        if !points.iter().all(|p| p.is_finite()) {
+            return Err(Error::NonFinite {
+                what: "a control point of the caustic",
+            });
+        }
+        Ok(Self { points })
     }
 
     /// The four control points.
@@ -255,4 +263,30 @@ impl From<TCubic> for [DVec2; 4] {
 /// `sine_squared` of half the angle between them (Proposition 2).
 pub(crate) fn corner_reach(a: f64, c: f64, sine_squared: f64) -> f64 {
     2.0 * a * c / (a + c + ((a - c) * (a - c) + 16.0 * a * c * sine_squared).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_of_any_size_are_recognised_or_refused() {
+        let zigzag = [(0.0, 0.0), (1.0, 0.0), (1.5, 0.7), (2.5, 0.7)];
+        let cubic = TCubic::in_triangle(DVec2::ZERO, DVec2::new(2.0, 0.3), DVec2::new(2.5, 2.0));
+        let cubic = *cubic.unwrap().points();
+        for size in [1e-200, 1.0, 1e200] {
+            let plain = zigzag.map(|(x, y)| size * DVec2::new(x, y));
+            assert!(matches!(
+                TCubic::new(plain),
+                Err(Error::NotTschirnhausen { .. })
+            ));
+            assert!(TCubic::new(cubic.map(|p| size * p)).is_ok());
+        }
+    }
+
+    #[test]
+    fn a_caustic_that_overflows_is_refused() {
+        let caustic = TCubic::parabola_caustic(1.0, DVec2::new(0.6, 0.8), -1e200, 1e200);
+        assert!(matches!(caustic, Err(Error::NonFinite { .. })));
+    }
 }
