@@ -314,6 +314,18 @@ pub enum Error {
         /// The bound.
         minimum: f64,
     },
+    /// A polygon so thin that the radii of its involutes are lost in rounding.
+    #[error(
+        "the polygon is too thin: along side {edge} rounding leaves the radii of a rosette of width {width} uncertain by {uncertainty}"
+    )]
+    UncertainRadius {
+        /// The side.
+        edge: usize,
+        /// A bound of the rounding error of the radii.
+        uncertainty: f64,
+        /// The width.
+        width: f64,
+    },
     /// An arc of a closed curve turns right, or its radius of curvature is not positive throughout.
     #[error("arc {index} is not convex and regular: its end radii are {} and {}", radii[0], radii[1])]
     NotRegular {

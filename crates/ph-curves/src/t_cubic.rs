@@ -4,7 +4,7 @@ use bezier_mass::bernstein;
 use glam::DVec2;
 
 use crate::complex::{conj, divide, sqrt, square};
-use crate::{Error, G1Ends, LineElement, TQuartic};
+use crate::{Error, TQuartic};
 
 /// Largest relative defect of `D1^2 = D0 D2` at which four points count as a Tschirnhausen cubic:
 /// far above the rounding of control points that were computed as one, far below any other cubic.
@@ -207,26 +207,47 @@ impl TCubic {
     /// The involute with signed radius `radius` at the start and normal along the direction of travel:
     /// the class-3 arc whose evolute this is. Its radius decreases by the arc length.
     ///
+    /// With the preimage w of the hodograph and `kappa = det(w0, w1)` its support numerator is
+    /// `<w^2, P0> + radius |w|^2 - 2/3 kappa^2 t^3`, the first two terms being the circle around the start; from the end
+    /// it is `<w^2, P3> + (radius - length) |w|^2 + 2/3 kappa^2 (1 - t)^3`.
+    ///
     /// # Errors
     /// [`Error::NoTurning`] or [`Error::ZeroDirection`] if the cubic is a point or a straight line, which
-    /// have no class-3 involutes.
+    /// have no class-3 involutes; [`Error::TurningTooLarge`] if it turns by pi or more; [`Error::NonFinite`].
     pub fn involute(&self, radius: f64) -> Result<TQuartic, Error> {
         if !radius.is_finite() {
             return Err(Error::NonFinite {
                 what: "the radius of an involute",
             });
         }
-        let [d0, _, d2] = self.legs();
-        let (l0, l2) = (d0.length(), d2.length());
-        let element = |centre: DVec2, travel: DVec2, radius: f64| {
-            let normal = travel.try_normalize().ok_or(Error::ZeroDirection {
-                what: "an end leg of the cubic",
-            })?;
-            LineElement::new(centre + normal * radius, normal)
+        // From the end with the longer leg, which has lost fewer digits.
+        let [d0, d1, d2] = self.legs();
+        let backwards = d0.length() < d2.length();
+        let (w0, w1) = if backwards {
+            let w1 = sqrt(3.0 * d2);
+            (divide(3.0 * d1, w1), w1)
+        } else {
+            self.preimage()?
         };
-        let start = element(self.points[0], d0, radius)?;
-        let end = element(self.points[3], d2, radius - self.length())?;
-        G1Ends::new(start, end)?.arc((l0 / l2).sqrt())
+        // Spinors of size one: the numerator has the size of the square of theirs.
+        let size = (w0.length() * w1.length()).sqrt();
+        let (z0, z1) = (w0 / size, w1 / size);
+        let circle = TQuartic::new(z0, z1, [0.0; 4])?;
+        let (normals, lengths) = (circle.control_normals(), circle.circle_coefficients());
+        let (centre, radius) = if backwards {
+            (self.points[3], radius - self.length())
+        } else {
+            (self.points[0], radius)
+        };
+        let mut support: [f64; 4] =
+            std::array::from_fn(|k| normals[k].dot(centre) + radius * lengths[k]);
+        let kappa = size * z0.perp_dot(z1);
+        if backwards {
+            support[0] += kappa * kappa / 1.5;
+        } else {
+            support[3] -= kappa * kappa / 1.5;
+        }
+        TQuartic::new(z0, z1, support)
     }
 
     /// The complex numbers `(w0, w1)` whose linear interpolant squares to the hodograph.
