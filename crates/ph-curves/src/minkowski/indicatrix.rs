@@ -374,6 +374,17 @@ impl Ellipse {
 }
 
 impl Bumped {
+    /// Whether the curve is convex.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        if self.height.abs() < 1.0 / 15.0 {
+            return Ok(());
+        }
+        Err(Error::NotConvex {
+            angle: if self.height > 0.0 { 0.0 } else { 0.125 * TAU },
+            radius: 1.0 - 15.0 * self.height.abs(),
+        })
+    }
+
     /// The exact dual form over half a turn from the normal angle 0, two arcs of class 8:
     /// `u0 = -(q⁴ + height Re w⁸)`, `n = q³ w²` with `w` between unit complex numbers an eighth of a turn apart.
     ///
@@ -398,12 +409,7 @@ impl Bumped {
     /// unless `|end - start| < π`; [`Error::NonFinite`].
     pub fn arc(&self, start: f64, end: f64) -> Result<DualCurve, Error> {
         use bezier_mass::bernstein::{product, product_with};
-        if self.height.is_nan() || self.height.abs() >= 1.0 / 15.0 {
-            return Err(Error::NotConvex {
-                angle: if self.height > 0.0 { 0.0 } else { 0.125 * TAU },
-                radius: 1.0 - 15.0 * self.height.abs(),
-            });
-        }
+        self.check()?;
         check_turning(start, end)?;
         let w = [DVec2::from_angle(0.5 * start), DVec2::from_angle(0.5 * end)];
         let square = product_with(&w, &w, |a, b| a.rotate(*b));
