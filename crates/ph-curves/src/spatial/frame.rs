@@ -141,6 +141,11 @@ pub(super) fn direction(vector: DVec3) -> Option<DVec3> {
     (vector / vector.abs().max_element()).try_normalize()
 }
 
+/// The length of a vector of any size, whose square may overflow.
+pub(super) fn length(vector: DVec3) -> f64 {
+    vector.x.hypot(vector.y).hypot(vector.z)
+}
+
 /// The reflection of `vector` in the plane orthogonal to a unit vector.
 fn reflected(vector: DVec3, normal: DVec3) -> DVec3 {
     vector - 2.0 * vector.dot(normal) * normal
