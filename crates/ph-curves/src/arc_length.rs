@@ -47,7 +47,7 @@ impl ArcLength {
     ///
     /// # Errors
     ///
-    /// [`Error::TooFew`] without coefficients; [`Error::NonFinite`].
+    /// [`Error::TooFew`] without coefficients; [`Error::NonFinite`]; [`Error::RunsBackwards`] where the speed is negative.
     pub fn try_new(speed: Vec<f64>) -> Result<Self, Error> {
         if speed.is_empty() {
             return Err(Error::TooFew {
@@ -61,6 +61,9 @@ impl ArcLength {
             return Err(Error::NonFinite {
                 what: "a speed coefficient",
             });
+        }
+        if let Some((t, speed)) = negative_value(&speed) {
+            return Err(Error::RunsBackwards { t, speed });
         }
         let backwards: Vec<f64> = speed.iter().rev().copied().collect();
         let mut arc = Self {
@@ -225,6 +228,43 @@ impl TryFrom<Vec<f64>> for ArcLength {
     }
 }
 
+/// Negative values of a speed down to this share of its largest coefficient are the rounding of a zero.
+const ROUNDING_OF_ZERO: f64 = 1e-9;
+/// Halvings after which the coefficients of a part tell its values to that share: they are of order 2 in its width.
+const HALVINGS: u32 = 20;
+
+/// A parameter at which a polynomial in Bernstein form is negative, and its value there.
+fn negative_value(coefficients: &[f64]) -> Option<(f64, f64)> {
+    if coefficients.iter().all(|c| *c >= 0.0) {
+        return None;
+    }
+    let size = coefficients.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+    negative_value_on(coefficients, (0.0, 1.0), -ROUNDING_OF_ZERO * size, HALVINGS)
+}
+
+fn negative_value_on(
+    coefficients: &[f64],
+    (start, end): (f64, f64),
+    least: f64,
+    halvings: u32,
+) -> Option<(f64, f64)> {
+    let (&first, &last) = (coefficients.first()?, coefficients.last()?);
+    if first < least || last < least {
+        return Some(if first <= last {
+            (start, first)
+        } else {
+            (end, last)
+        });
+    }
+    if halvings == 0 || coefficients.iter().all(|c| *c >= least) {
+        return None;
+    }
+    let middle = 0.5 * (start + end);
+    let (left, right) = bezier_mass::bernstein::subdivide(coefficients, 0.5);
+    negative_value_on(&left, (start, middle), least, halvings - 1)
+        .or_else(|| negative_value_on(&right, (middle, end), least, halvings - 1))
+}
+
 /// A polynomial by powers, Horner's scheme on its even and its odd part side by side.
 #[inline]
 fn evaluate(coefficients: &[f64], x: f64) -> f64 {
@@ -337,6 +377,21 @@ mod tests {
                 ArcLength::try_new(vec![1.0, bad]),
                 Err(Error::NonFinite { .. })
             ));
+        }
+        for backwards in [
+            vec![1.0, -10.0, 1.0],
+            vec![3.0, -4.0, 3.0],
+            vec![-1.0],
+            vec![1.0, -1.0 - 1e-6, 1.0],
+            vec![1.0, 2.0, -1e-6],
+        ] {
+            match ArcLength::try_new(backwards.clone()) {
+                Err(Error::RunsBackwards { t, speed }) => {
+                    let value: f64 = bernstein::evaluate(&backwards, t);
+                    assert!(speed < 0.0 && (value - speed).abs() < 1e-15);
+                }
+                other => panic!("{backwards:?}: {other:?}"),
+            }
         }
         // A point: no length but zero.
         assert_eq!(

@@ -34,10 +34,11 @@ impl HarmonicLift {
     ///
     /// # Errors
     ///
-    /// [`Error::TooFew`] unless there are more than two samples a harmonic; [`Error::NonFinite`].
+    /// [`Error::TooFew`] unless there are more than two samples a harmonic; [`Error::NonFinite`], also for samples so
+    /// large that a coefficient overflows.
     pub fn fit(samples: &[f64], harmonics: usize) -> Result<Self, Error> {
-        let needed = 2 * harmonics + 1;
-        if samples.len() < needed.max(1) {
+        let needed = harmonics.saturating_mul(2).saturating_add(1);
+        if samples.len() < needed {
             return Err(Error::TooFew {
                 what: "samples of a lift",
                 given: samples.len(),
@@ -54,16 +55,23 @@ impl HarmonicLift {
             let waves = samples.iter().enumerate().map(|(i, sample)| {
                 // Angles reduced modulo a turn in integers, so that high harmonics keep their digits.
                 let (sine, cosine) = (TAU * ((k * i) % samples.len()) as f64 / count).sin_cos();
-                (sample * cosine, sample * sine)
+                (sample / count * cosine, sample / count * sine)
             });
             let (cosine, sine) =
                 waves.fold((0.0, 0.0), |sum, wave| (sum.0 + wave.0, sum.1 + wave.1));
-            (2.0 * cosine / count, 2.0 * sine / count)
+            (2.0 * cosine, 2.0 * sine)
         };
-        Ok(Self {
-            mean: samples.iter().sum::<f64>() / count,
+        let lift = Self {
+            mean: samples.iter().map(|sample| sample / count).sum(),
             harmonics: (1..=harmonics).map(coefficient).collect(),
-        })
+        };
+        let finite = |(cosine, sine): &(f64, f64)| cosine.is_finite() && sine.is_finite();
+        if !(lift.mean.is_finite() && lift.harmonics.iter().all(finite)) {
+            return Err(Error::NonFinite {
+                what: "coefficient of a lift",
+            });
+        }
+        Ok(lift)
     }
 }
 
@@ -148,6 +156,8 @@ pub struct Cam {
 
 /// Checks are made at this many angles an arc.
 const SAMPLES_AN_ARC: usize = 64;
+/// The lift error, of order 6, is at rounding with far fewer arcs; the samples of these still fit into memory.
+const MOST_ARCS: usize = 1 << 16;
 /// A lift and its half turn must add up to the width within this share of it.
 const SYMMETRY_TOLERANCE: f64 = 1e-9;
 
@@ -158,13 +168,21 @@ impl Cam {
     ///
     /// The reason why there is no such cam: [`Error::NotAntisymmetric`] where `X(ψ) + X(ψ + π)` is not constant (see
     /// [`Antisymmetric`]), [`Error::NotConvex`] where `X + X''` is not positive, [`Error::NotRegular`] if there are too few
-    /// arcs for the profile to follow; [`Error::TooFew`] for less than 2 arcs; [`Error::NonFinite`].
+    /// arcs for the profile to follow; [`Error::TooFew`] for less than 2 arcs, [`Error::TooMany`] for more than 65536;
+    /// [`Error::NonFinite`].
     pub fn try_new(lift: &impl Lift, arcs_per_half_turn: usize) -> Result<Self, Error> {
         if arcs_per_half_turn < 2 {
             return Err(Error::TooFew {
                 what: "arcs of a half turn",
                 given: arcs_per_half_turn,
                 needed: 2,
+            });
+        }
+        if arcs_per_half_turn > MOST_ARCS {
+            return Err(Error::TooMany {
+                what: "arcs of a half turn",
+                given: arcs_per_half_turn,
+                most: MOST_ARCS,
             });
         }
         let count = SAMPLES_AN_ARC * arcs_per_half_turn;
@@ -205,7 +223,8 @@ impl Cam {
 }
 
 impl Cam {
-    /// The largest difference between the lift that the profile produces and samples at equal steps over one turn.
+    /// The largest difference between the lift that the profile produces and samples at equal steps over one turn;
+    /// NaN if a sample is.
     #[must_use]
     pub fn error_at_samples(&self, samples: &[f64]) -> f64 {
         let step = TAU / samples.len() as f64;
@@ -213,7 +232,14 @@ impl Cam {
             .iter()
             .enumerate()
             .map(|(i, lift)| (self.profile.contact(step * i as f64).support - lift).abs())
-            .fold(0.0, f64::max)
+            // Unlike `max`, this keeps a NaN.
+            .fold(0.0, |largest: f64, error| {
+                if largest.is_nan() || error <= largest {
+                    largest
+                } else {
+                    error
+                }
+            })
     }
 }
 
@@ -316,6 +342,41 @@ mod tests {
             Err(Error::NonFinite { .. })
         ));
         assert!(matches!(Cam::try_new(&lift, 1), Err(Error::TooFew { .. })));
+        for arcs in [usize::MAX, 1 << 63, 1 << 40] {
+            assert!(matches!(
+                Cam::try_new(&lift, arcs),
+                Err(Error::TooMany { .. })
+            ));
+        }
+    }
+
+    #[test]
+    fn hostile_samples_are_refused_or_remembered() {
+        for harmonics in [usize::MAX, 1 << 63] {
+            assert!(matches!(
+                HarmonicLift::fit(&[1.0, 2.0, 3.0], harmonics),
+                Err(Error::TooFew { .. })
+            ));
+        }
+        let large = HarmonicLift::fit(&[1e308; 3], 1).unwrap();
+        assert!((large.mean / 1e308 - 1.0).abs() < 1e-15);
+        let wave = [
+            f64::MAX,
+            -f64::MAX,
+            -f64::MAX,
+            f64::MAX,
+            f64::MAX,
+            -f64::MAX,
+        ];
+        // The first harmonic of this square wave is a third higher.
+        assert!(matches!(
+            HarmonicLift::fit(&wave, 2),
+            Err(Error::NonFinite { .. })
+        ));
+        let cam = Cam::try_new(&lift, 6).unwrap();
+        assert!(cam.error_at_samples(&[f64::NAN]).is_nan());
+        assert!(cam.error_at_samples(&[f64::NAN, 5.0, 5.0]).is_nan());
+        assert_eq!(cam.error_at_samples(&[f64::INFINITY]), f64::INFINITY);
     }
 
     #[test]

@@ -94,7 +94,14 @@ impl EvolutePolygon {
         };
         let cubics = (0..count).map(|j| {
             let next = (j + 1) % count;
-            TCubic::new([exterior(j), vertices[j], vertices[next], exterior(next)])
+            let points = [exterior(j), vertices[j], vertices[next], exterior(next)];
+            if points.iter().all(|point| point.is_finite()) {
+                Ok(TCubic::from_parts(points))
+            } else {
+                Err(Error::NonFinite {
+                    what: "exterior point of a polygon",
+                })
+            }
         });
         let cubics = cubics.collect::<Result<Vec<_>, _>>()?;
         let cubic_length = |j: usize| cubics[j % count].length();
@@ -148,15 +155,30 @@ impl EvolutePolygon {
     ///
     /// # Errors
     ///
-    /// [`Error::WidthTooSmall`] unless the width exceeds [`EvolutePolygon::minimum_width`]; [`Error::NonFinite`].
+    /// [`Error::WidthTooSmall`] unless the width exceeds [`EvolutePolygon::minimum_width`];
+    /// [`Error::UncertainRadius`] for a polygon so thin that the radii of its arcs are lost in rounding (a triangle whose
+    /// sides differ by a factor of about 300); [`Error::NonFinite`].
     pub fn rosette(&self, width: f64) -> Result<Rosette<4>, Error> {
         let arcs = self.arcs(width)?;
+        let noise = arcs.iter().map(PhArc::radius_noise).enumerate();
+        let worst = noise.max_by(|a, b| a.1.total_cmp(&b.1));
         let clockwise = arcs.first().is_some_and(|arc| arc.turning() < 0.0);
-        Rosette::try_new(if clockwise {
+        let rosette = Rosette::try_new(if clockwise {
             arcs.iter().rev().map(PhArc::reverse).collect()
         } else {
             arcs
-        })
+        });
+        // An arc that turns little while its parameter changes scale has coefficients whose rounding moves its radii.
+        match (rosette, worst) {
+            (Err(_), Some((arc, uncertainty))) if uncertainty > RADIUS_TOLERANCE * width => {
+                Err(Error::UncertainRadius {
+                    edge: arc % self.cubics.len(),
+                    uncertainty,
+                    width,
+                })
+            }
+            (rosette, _) => rosette,
+        }
     }
 
     /// The `2n` T-quartics of the rosette in the order and sense of the cubics, with the start radii `(width ± c_j) / 2`,
@@ -189,6 +211,9 @@ impl EvolutePolygon {
             .collect()
     }
 }
+
+/// Radii that are less certain than this share of the width, where a rosette does not close, are the reason.
+const RADIUS_TOLERANCE: f64 = 1e-8;
 
 /// `x_0 = l_0 l_1⁻¹ l_2 ...`, then `x_{j+1} = l_j² / x_j`; in logarithms, since products of many lengths may overflow.
 fn exterior_legs(lengths: &[f64]) -> Vec<f64> {
@@ -285,7 +310,8 @@ impl SupportJet {
 }
 
 /// The arc of class `N - 1 >= 5` between two normal angles with given jets at its ends, which each fix three coefficients;
-/// `inner` sets the free ones in between, each the signed move of one Bézier line.
+/// `inner` are the free ones in between: support coefficients `g_k` in the scale of unit end normals, not moves. Adding `m` to one moves
+/// its Bézier line by `m` over the length of that line's normal.
 ///
 /// Without free coefficients (`N = 6`) this is the linear G2 Hermite interpolation by PH arcs of class 5.
 ///
@@ -343,7 +369,8 @@ pub fn hermite_arc<const N: usize>(
 /// # Errors
 ///
 /// [`Error::TooFew`] for less than 2 jets; [`Error::BadRadius`] unless all radii lie between 0 and the width;
-/// [`Error::OutsideDomain`] for an angle out of order; [`Error::NotRegular`] if a radius of curvature is not positive
+/// [`Error::TurningTooLarge`] for an angle that does not exceed its predecessor, [`Error::OutsideDomain`] if the last one is half
+/// a turn or more beyond the first; [`Error::NotRegular`] if a radius of curvature is not positive
 /// between the jets; [`Error::NonFinite`].
 pub fn interpolate_constant_width(
     width: f64,

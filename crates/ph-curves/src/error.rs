@@ -181,6 +181,16 @@ pub enum Error {
         /// How many are needed.
         needed: usize,
     },
+    /// More of something than can be handled.
+    #[error("{given} {what} given, at most {most} are possible")]
+    TooMany {
+        /// What there is too much of.
+        what: &'static str,
+        /// How many were given.
+        given: usize,
+        /// How many are possible.
+        most: usize,
+    },
     /// The parameter lies outside the domain.
     #[error("parameter {value} lies outside [{start}, {end}]")]
     OutsideDomain {
@@ -253,6 +263,14 @@ pub enum Error {
         /// The coefficient.
         coefficient: f64,
     },
+    /// A speed that is negative somewhere.
+    #[error("the speed at parameter {t} is {speed}: a length cannot decrease")]
+    RunsBackwards {
+        /// Parameter of the point.
+        t: f64,
+        /// The speed there.
+        speed: f64,
+    },
     /// A span does not start where its predecessor ends.
     #[error("span {} starts {distance} away from the end of span {index}", index + 1)]
     Gap {
@@ -305,6 +323,18 @@ pub enum Error {
         width: f64,
         /// The bound.
         minimum: f64,
+    },
+    /// A polygon so thin that the radii of its involutes are lost in rounding.
+    #[error(
+        "the polygon is too thin: along side {edge} rounding leaves the radii of a rosette of width {width} uncertain by {uncertainty}"
+    )]
+    UncertainRadius {
+        /// The side.
+        edge: usize,
+        /// A bound of the rounding error of the radii.
+        uncertainty: f64,
+        /// The width.
+        width: f64,
     },
     /// An arc of a closed curve turns right, or its radius of curvature is not positive throughout.
     #[error("arc {index} is not convex and regular: its end radii are {} and {}", radii[0], radii[1])]

@@ -61,15 +61,29 @@ impl PottmannForm {
     }
 
     /// The parallel curve at signed distance `distance` along the normal: `e + d f`.
-    #[must_use]
-    pub fn offset(&self, distance: f64) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] if the numerator or the denominator has no coefficients; [`Error::NonFinite`].
+    pub fn offset(&self, distance: f64) -> Result<Self, Error> {
+        if self.e.is_empty() || self.f.is_empty() {
+            return Err(Error::TooFew {
+                what: "coefficients",
+                given: 0,
+                needed: 1,
+            });
+        }
         let degree = self.e.len().max(self.f.len()).saturating_sub(1);
         let (e, f) = (
             bernstein::elevate_to(&self.e, degree),
             bernstein::elevate_to(&self.f, degree),
         );
-        let e = e.iter().zip(&f).map(|(e, f)| e + distance * f).collect();
-        Self { e, ..self.clone() }
+        let e: Vec<f64> = e.iter().zip(&f).map(|(e, f)| e + distance * f).collect();
+        if e.iter().any(|c| !c.is_finite()) {
+            return Err(Error::NonFinite {
+                what: "a coefficient or the distance of an offset",
+            });
+        }
+        Ok(Self { e, ..self.clone() })
     }
 }
 
@@ -112,7 +126,8 @@ impl TQuarticCoefficients {
             });
         }
         let [(e0, f0), (e1, f1)] = ends;
-        if f0 * f1 <= 0.0 {
+        // The product of the two may underflow.
+        if f0 == 0.0 || f1 == 0.0 || (f0 > 0.0) != (f1 > 0.0) {
             return Err(Error::Pole { f0, f1 });
         }
         let rho = f0 / f1;
@@ -153,7 +168,7 @@ mod tests {
         };
         for distance in [0.0, 0.8, -3.0] {
             let arc = source.offset(distance).arc(t0, t1).unwrap();
-            let dual = form.offset(distance).to_dual().unwrap();
+            let dual = form.offset(distance).unwrap().to_dual().unwrap();
             assert_eq!(dual.class(), 3);
             for t in [0.0, 0.3, 1.0] {
                 let contact = dual.contact(t).unwrap();
@@ -176,6 +191,29 @@ mod tests {
         assert!(
             (contact.point.length() - 1.0).abs() < 1e-15 && (contact.radius - 1.0).abs() < 1e-14
         );
-        assert!(PottmannForm { f: vec![], ..form }.to_dual().is_err());
+        assert!(form.offset(f64::NAN).is_err());
+        let empty = PottmannForm { f: vec![], ..form };
+        assert!(empty.to_dual().is_err() && empty.offset(1.0).is_err());
+        let empty = PottmannForm { e: vec![], ..empty };
+        assert!(empty.offset(1.0).is_err());
+    }
+
+    #[test]
+    fn a_common_factor_of_the_coefficients_is_no_pole() {
+        let scaled = |factor: f64| TQuarticCoefficients {
+            alpha: 0.7 * factor,
+            beta: 1.9 * factor,
+            gamma: 0.3 * factor,
+            delta: 1.1 * factor,
+        };
+        let plain = scaled(1.0).arc(-0.4, 0.9).unwrap();
+        for factor in [1e-170, -1e-170, 1e170] {
+            let arc = scaled(factor).arc(-0.4, 0.9).unwrap();
+            assert!((arc.point(0.3) - plain.point(0.3)).length() < 1e-14);
+        }
+        assert!(matches!(
+            scaled(1e-170).arc(-5.0, 0.9),
+            Err(Error::Pole { .. })
+        ));
     }
 }

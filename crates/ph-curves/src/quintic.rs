@@ -37,23 +37,30 @@ impl Hermite {
                 what: "end derivative of Hermite data",
             });
         }
+        let (preimages, size) = self.preimages();
+        let [a, b, c, d] =
+            preimages.map(|preimage| PolynomialPh::try_new(self.start, preimage.map(|w| size * w)));
+        Ok([a?, b?, c?, d?])
+    }
+
+    /// The preimages of the four for data of size one, and the factor that brings them to the size of these data: a power
+    /// of two, which keeps their digits.
+    fn preimages(&self) -> ([[DVec2; 3]; 4], f64) {
         let chord = self.end - self.start;
-        let first = complex::sqrt(self.start_derivative);
-        let quintic = |last: DVec2, sign: f64| {
-            let squares = self.start_derivative + self.end_derivative;
-            let root = complex::sqrt(120.0 * chord - 15.0 * squares + 10.0 * first.rotate(last));
-            PolynomialPh::try_new(
-                self.start,
-                [first, 0.25 * (sign * root - 3.0 * (first + last)), last],
-            )
+        let largest = [chord, self.start_derivative, self.end_derivative]
+            .into_iter()
+            .fold(0.0, |largest: f64, v| largest.max(v.abs().max_element()));
+        let size = (0.5 * largest.log2()).round().exp2();
+        let [chord, d0, d1] =
+            [chord, self.start_derivative, self.end_derivative].map(|v| v / size / size);
+        let first = complex::sqrt(d0);
+        let preimage = |last: DVec2, sign: f64| {
+            let root = complex::sqrt(120.0 * chord - 15.0 * (d0 + d1) + 10.0 * first.rotate(last));
+            [first, 0.25 * (sign * root - 3.0 * (first + last)), last]
         };
-        let last = complex::sqrt(self.end_derivative);
-        Ok([
-            quintic(last, 1.0)?,
-            quintic(last, -1.0)?,
-            quintic(-last, 1.0)?,
-            quintic(-last, -1.0)?,
-        ])
+        let last = complex::sqrt(d1);
+        let four = [(last, 1.0), (last, -1.0), (-last, 1.0), (-last, -1.0)];
+        (four.map(|(last, sign)| preimage(last, sign)), size)
     }
 
     /// The one of the four with the least bending energy: the criterion does not depend on the frame, and finds the
@@ -64,9 +71,14 @@ impl Hermite {
     /// As for [`Hermite::quintics`].
     pub fn least_bending(&self) -> Result<PolynomialPh, Error> {
         let [mut best, others @ ..] = self.quintics()?;
-        let mut least = best.bending_energy();
-        for curve in others {
-            let energy = curve.bending_energy();
+        // Energies of huge and tiny curves overflow: those of size one are compared.
+        let energy = |preimage: [DVec2; 3]| -> Result<f64, Error> {
+            Ok(PolynomialPh::try_new(DVec2::ZERO, preimage)?.bending_energy())
+        };
+        let [first, rest @ ..] = self.preimages().0;
+        let mut least = energy(first)?;
+        for (curve, preimage) in others.into_iter().zip(rest) {
+            let energy = energy(preimage)?;
             if energy < least || least.is_nan() {
                 (best, least) = (curve, energy);
             }
@@ -103,6 +115,24 @@ mod tests {
                 end_derivative: DATA.end_derivative.rotate(turn),
             };
             assert!((turned.least_bending().unwrap().arc_length().total() - best).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn huge_and_tiny_data_are_interpolated() {
+        let plain = DATA.least_bending().unwrap().arc_length().total();
+        for size in [1e-160, 1e-100, 1e100, 1e150] {
+            let data = Hermite {
+                start: DATA.start * size,
+                start_derivative: DATA.start_derivative * size,
+                end: DATA.end * size,
+                end_derivative: DATA.end_derivative * size,
+            };
+            for curve in data.quintics().unwrap() {
+                assert!((curve.point(1.0) / size - DATA.end).length() < 1e-14);
+            }
+            let length = data.least_bending().unwrap().arc_length().total();
+            assert!((length / size / plain - 1.0).abs() < 1e-14);
         }
     }
 

@@ -44,6 +44,9 @@ pub struct Diameter {
 /// Joints must agree in position, and in radius, to this share of the curve's size: far above the rounding of the
 /// constructions (1e-13), far below anything that shows.
 const JOINT_TOLERANCE: f64 = 1e-8;
+/// The radii of an arc that turns little while its parameter changes scale are lost in the rounding of its coefficients,
+/// its points are not; so far that may go.
+const ROUNDING_OF_RADII: f64 = 1e-5;
 
 impl<const N: usize> TryFrom<Vec<PhArc<N>>> for Rosette<N> {
     type Error = Error;
@@ -66,7 +69,7 @@ impl<const N: usize> Rosette<N> {
     ///
     /// [`Error::TooFew`] without arcs; [`Error::NotRegular`] with the first arc that turns right or whose radius of
     /// curvature is not proved positive; [`Error::Gap`] with the first joint that is not G2 (the seam included), the
-    /// distance being that of the points, or the difference of radii if larger.
+    /// distance being that of the points, or the difference of radii beyond rounding if larger.
     pub fn try_new(arcs: Vec<PhArc<N>>) -> Result<Self, Error> {
         let (Some(first), Some(last)) = (arcs.first(), arcs.last()) else {
             return Err(Error::TooFew {
@@ -87,6 +90,10 @@ impl<const N: usize> Rosette<N> {
             .iter()
             .map(|arc| arc.radius(0.0).max(arc.radius(1.0)))
             .fold(0.0, f64::max);
+        // Radii cannot be told apart within the rounding of the arcs' coefficients.
+        let rounding = |before: &PhArc<N>, after: &PhArc<N>| {
+            (before.radius_noise() + after.radius_noise()).min(ROUNDING_OF_RADII * size)
+        };
         let following = arcs.iter().skip(1).chain([first]);
         for (index, (before, after)) in arcs.iter().zip(following).enumerate() {
             let (end, start) = (before.contact(1.0), after.contact(0.0));
@@ -94,7 +101,7 @@ impl<const N: usize> Rosette<N> {
             let distance = end
                 .point
                 .distance(start.point)
-                .max((end.radius - start.radius).abs())
+                .max((end.radius - start.radius).abs() - rounding(before, after))
                 .max(turned);
             if distance.is_nan() || distance > JOINT_TOLERANCE * size {
                 return Err(Error::Gap { index, distance });
@@ -302,6 +309,27 @@ mod tests {
             polygon.rosette(polygon.minimum_width()),
             Err(Error::WidthTooSmall { .. })
         ));
+    }
+
+    #[test]
+    fn thin_triangles_give_an_oval_or_the_reason() {
+        let thin = |base: f64| {
+            let corners = [(0.0, 0.0), (base, 0.0), (0.4 * base, 1.0)];
+            EvolutePolygon::try_new(&corners.map(|(x, y)| DVec2::new(x, y))).unwrap()
+        };
+        for base in [0.3, 0.1, 0.03, 0.015, 0.012, 0.01, 0.008] {
+            let polygon = thin(base);
+            let width = 10.0 * polygon.minimum_width();
+            let (least, most) = polygon.rosette(width).unwrap().width_range(100);
+            assert!(most - least < 1e-9 * width, "{base}: {least} {most}");
+        }
+        for base in [1e-3, 1e-4, 1e-7] {
+            let polygon = thin(base);
+            match polygon.rosette(10.0 * polygon.minimum_width()) {
+                Err(Error::UncertainRadius { edge, .. }) => assert!(edge != 0),
+                other => panic!("{base}: {other:?}"),
+            }
+        }
     }
 
     #[test]

@@ -4,7 +4,7 @@ use bezier_mass::bernstein;
 use glam::DVec2;
 
 use crate::complex::{conj, divide, sqrt, square};
-use crate::{Error, G1Ends, LineElement, TQuartic};
+use crate::{Error, TQuartic};
 
 /// Largest relative defect of `D1^2 = D0 D2` at which four points count as a Tschirnhausen cubic:
 /// far above the rounding of control points that were computed as one, far below any other cubic.
@@ -55,7 +55,10 @@ impl TCubic {
     /// `|D1^2 - D0 D2|` over the larger modulus, computed on legs of size one so that no square is lost.
     fn relative_defect(&self) -> f64 {
         let legs = self.legs();
-        let size = legs.iter().map(|d| d.length()).fold(0.0, f64::max);
+        let size = legs
+            .iter()
+            .map(|d| d.abs().max_element())
+            .fold(0.0, f64::max);
         if size == 0.0 {
             return 0.0;
         }
@@ -105,7 +108,8 @@ impl TCubic {
     /// The parameter is proportional to the abscissa. Light along the axis is focused in a point.
     ///
     /// # Errors
-    /// [`Error::NonFinite`]; [`Error::ZeroDirection`] for a zero direction or focal length.
+    /// [`Error::NonFinite`], also for rays so far out that the caustic overflows; [`Error::ZeroDirection`] for a zero
+    /// direction or focal length.
     pub fn parabola_caustic(
         focal_length: f64,
         direction: DVec2,
@@ -139,9 +143,13 @@ impl TCubic {
         let height = bernstein::product_with(&[x0, x1], &[x0, x1], |a, b| DVec2::new(0.0, a * b));
         let mirror = bernstein::elevate_to(&abscissa, 3);
         let height = bernstein::elevate_to(&height, 3);
-        Ok(Self {
-            points: std::array::from_fn(|k| (mirror[k] + height[k] + along[k]) * size),
-        })
+        let points: [DVec2; 4] = std::array::from_fn(|k| (mirror[k] + height[k] + along[k]) * size);
+        if !points.iter().all(|p| p.is_finite()) {
+            return Err(Error::NonFinite {
+                what: "a control point of the caustic",
+            });
+        }
+        Ok(Self { points })
     }
 
     /// The four control points.
@@ -199,26 +207,47 @@ impl TCubic {
     /// The involute with signed radius `radius` at the start and normal along the direction of travel:
     /// the class-3 arc whose evolute this is. Its radius decreases by the arc length.
     ///
+    /// With the preimage w of the hodograph and `kappa = det(w0, w1)` its support numerator is
+    /// `<w^2, P0> + radius |w|^2 - 2/3 kappa^2 t^3`, the first two terms being the circle around the start; from the end
+    /// it is `<w^2, P3> + (radius - length) |w|^2 + 2/3 kappa^2 (1 - t)^3`.
+    ///
     /// # Errors
     /// [`Error::NoTurning`] or [`Error::ZeroDirection`] if the cubic is a point or a straight line, which
-    /// have no class-3 involutes.
+    /// have no class-3 involutes; [`Error::TurningTooLarge`] if it turns by pi or more; [`Error::NonFinite`].
     pub fn involute(&self, radius: f64) -> Result<TQuartic, Error> {
         if !radius.is_finite() {
             return Err(Error::NonFinite {
                 what: "the radius of an involute",
             });
         }
-        let [d0, _, d2] = self.legs();
-        let (l0, l2) = (d0.length(), d2.length());
-        let element = |centre: DVec2, travel: DVec2, radius: f64| {
-            let normal = travel.try_normalize().ok_or(Error::ZeroDirection {
-                what: "an end leg of the cubic",
-            })?;
-            LineElement::new(centre + normal * radius, normal)
+        // From the end with the longer leg, which has lost fewer digits.
+        let [d0, d1, d2] = self.legs();
+        let backwards = d0.length() < d2.length();
+        let (w0, w1) = if backwards {
+            let w1 = sqrt(3.0 * d2);
+            (divide(3.0 * d1, w1), w1)
+        } else {
+            self.preimage()?
         };
-        let start = element(self.points[0], d0, radius)?;
-        let end = element(self.points[3], d2, radius - self.length())?;
-        G1Ends::new(start, end)?.arc((l0 / l2).sqrt())
+        // Spinors of size one: the numerator has the size of the square of theirs.
+        let size = (w0.length() * w1.length()).sqrt();
+        let (z0, z1) = (w0 / size, w1 / size);
+        let circle = TQuartic::new(z0, z1, [0.0; 4])?;
+        let (normals, lengths) = (circle.control_normals(), circle.circle_coefficients());
+        let (centre, radius) = if backwards {
+            (self.points[3], radius - self.length())
+        } else {
+            (self.points[0], radius)
+        };
+        let mut support: [f64; 4] =
+            std::array::from_fn(|k| normals[k].dot(centre) + radius * lengths[k]);
+        let kappa = size * z0.perp_dot(z1);
+        if backwards {
+            support[0] += kappa * kappa / 1.5;
+        } else {
+            support[3] -= kappa * kappa / 1.5;
+        }
+        TQuartic::new(z0, z1, support)
     }
 
     /// The complex numbers `(w0, w1)` whose linear interpolant squares to the hodograph.
@@ -255,4 +284,30 @@ impl From<TCubic> for [DVec2; 4] {
 /// `sine_squared` of half the angle between them (Proposition 2).
 pub(crate) fn corner_reach(a: f64, c: f64, sine_squared: f64) -> f64 {
     2.0 * a * c / (a + c + ((a - c) * (a - c) + 16.0 * a * c * sine_squared).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_of_any_size_are_recognised_or_refused() {
+        let zigzag = [(0.0, 0.0), (1.0, 0.0), (1.5, 0.7), (2.5, 0.7)];
+        let cubic = TCubic::in_triangle(DVec2::ZERO, DVec2::new(2.0, 0.3), DVec2::new(2.5, 2.0));
+        let cubic = *cubic.unwrap().points();
+        for size in [1e-200, 1.0, 1e200] {
+            let plain = zigzag.map(|(x, y)| size * DVec2::new(x, y));
+            assert!(matches!(
+                TCubic::new(plain),
+                Err(Error::NotTschirnhausen { .. })
+            ));
+            assert!(TCubic::new(cubic.map(|p| size * p)).is_ok());
+        }
+    }
+
+    #[test]
+    fn a_caustic_that_overflows_is_refused() {
+        let caustic = TCubic::parabola_caustic(1.0, DVec2::new(0.6, 0.8), -1e200, 1e200);
+        assert!(matches!(caustic, Err(Error::NonFinite { .. })));
+    }
 }

@@ -29,7 +29,7 @@ impl<F: Fn(f64) -> SupportJet> Support for F {
     }
 }
 
-/// The ellipse with semi-axes `a` along x and `b` along y.
+/// The ellipse with semi-axes `a` along x and `b` along y; its support is NaN unless both are positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Ellipse {
@@ -42,7 +42,10 @@ pub struct Ellipse {
 impl Support for Ellipse {
     fn jet(&self, psi: f64) -> SupportJet {
         let (sine, cosine) = psi.sin_cos();
-        let support = (self.a * cosine).hypot(self.b * sine);
+        let support = match self.check() {
+            Ok(()) => (self.a * cosine).hypot(self.b * sine),
+            Err(_) => f64::NAN,
+        };
         let slope = (self.b - self.a) * (self.b + self.a) * sine * cosine / support;
         // The radius of curvature is a² b² / p³.
         let radius = self.a * self.b / support * (self.a * self.b / support) / support;
@@ -113,7 +116,8 @@ impl DualIndicatrix {
     /// # Errors
     ///
     /// [`Error::TooFew`] without arcs; [`Error::Gap`] where two arcs do not share their tangent line, the image of the first
-    /// one after the last included; [`Error::AtInfinity`] for an arc without finite ends.
+    /// one after the last included; [`Error::NotRegular`] for an arc that does not turn left throughout;
+    /// [`Error::TurningTooLarge`] if they turn by `3π` or more; [`Error::AtInfinity`] for an arc without finite ends.
     pub fn try_new(arcs: Vec<DualCurve>) -> Result<Self, Error> {
         let (Some(first), Some(_)) = (arcs.first(), arcs.last()) else {
             return Err(Error::TooFew {
@@ -127,7 +131,13 @@ impl DualIndicatrix {
         let mut angle = angles[0];
         for (index, arc) in arcs.iter().enumerate() {
             let (from, to) = (arc.contact(0.0)?, arc.contact(1.0)?);
-            angle += from.normal.angle_to(to.normal);
+            if !crate::rosette::keeps_positive(&arc.turn_polynomial(), 0) {
+                return Err(Error::NotRegular {
+                    index,
+                    radii: [from.radius, to.radius],
+                });
+            }
+            angle += from.normal.angle_to(to.normal).rem_euclid(TAU);
             angles.push(angle);
             let (normal, support) = match arcs.get(index + 1) {
                 Some(next) => (next.contact(0.0)?.normal, next.contact(0.0)?.support),
@@ -140,6 +150,11 @@ impl DualIndicatrix {
             if distance.is_nan() || distance > JOINT_TOLERANCE {
                 return Err(Error::Gap { index, distance });
             }
+        }
+        // The joints close, so that this is an odd multiple of π up to rounding.
+        let turning = angle - angles[0];
+        if turning > TAU {
+            return Err(Error::TurningTooLarge { turning });
         }
         Ok(Self { arcs, angles })
     }
@@ -291,7 +306,34 @@ impl<S: Support> Support for Indicatrix<S> {
     }
 }
 
+/// Whether there is an arc between two normal angles.
+fn check_turning(start: f64, end: f64) -> Result<(), Error> {
+    let turning = end - start;
+    if !turning.is_finite() {
+        Err(Error::NonFinite {
+            what: "normal angle of an arc",
+        })
+    } else if turning == 0.0 {
+        Err(Error::NoTurning { turning })
+    } else if turning.abs() >= PI {
+        Err(Error::TurningTooLarge { turning })
+    } else {
+        Ok(())
+    }
+}
+
 impl Ellipse {
+    /// Whether both semi-axes are positive and finite.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        if self.a > 0.0 && self.b > 0.0 && self.a.is_finite() && self.b.is_finite() {
+            return Ok(());
+        }
+        Err(Error::BadRadius {
+            radius: self.a.min(self.b),
+            width: f64::INFINITY,
+        })
+    }
+
     /// The exact dual form over half a turn from the normal angle 0: the affine image of two quarter circles of class 2.
     ///
     /// # Errors
@@ -309,15 +351,11 @@ impl Ellipse {
     ///
     /// # Errors
     ///
-    /// [`Error::BadRadius`] unless both semi-axes are positive and finite; [`Error::TurningTooLarge`] unless
-    /// `0 < |end - start| < π`.
+    /// [`Error::BadRadius`] unless both semi-axes are positive and finite; [`Error::NoTurning`] for equal angles,
+    /// [`Error::TurningTooLarge`] unless `|end - start| < π`; [`Error::NonFinite`].
     pub fn arc(&self, start: f64, end: f64) -> Result<DualCurve, Error> {
-        if !(self.a > 0.0 && self.b > 0.0 && self.a.is_finite() && self.b.is_finite()) {
-            return Err(Error::BadRadius {
-                radius: self.a.min(self.b),
-                width: f64::INFINITY,
-            });
-        }
+        self.check()?;
+        check_turning(start, end)?;
         let circle = PhArc::<3>::new(
             DVec2::from_angle(0.5 * start),
             DVec2::from_angle(0.5 * end),
@@ -336,6 +374,17 @@ impl Ellipse {
 }
 
 impl Bumped {
+    /// Whether the curve is convex.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        if self.height.abs() < 1.0 / 15.0 {
+            return Ok(());
+        }
+        Err(Error::NotConvex {
+            angle: if self.height > 0.0 { 0.0 } else { 0.125 * TAU },
+            radius: 1.0 - 15.0 * self.height.abs(),
+        })
+    }
+
     /// The exact dual form over half a turn from the normal angle 0, two arcs of class 8:
     /// `u0 = -(q⁴ + height Re w⁸)`, `n = q³ w²` with `w` between unit complex numbers an eighth of a turn apart.
     ///
@@ -343,12 +392,6 @@ impl Bumped {
     ///
     /// [`Error::NotConvex`] unless `|height| < 1/15`.
     pub fn dual(&self) -> Result<DualIndicatrix, Error> {
-        if self.height.is_nan() || self.height.abs() >= 1.0 / 15.0 {
-            return Err(Error::NotConvex {
-                angle: 0.0,
-                radius: 1.0 - 15.0 * self.height.abs(),
-            });
-        }
         let arcs = (0..2).map(|quarter| {
             self.arc(
                 0.25 * TAU * f64::from(quarter),
@@ -362,9 +405,12 @@ impl Bumped {
     ///
     /// # Errors
     ///
-    /// [`Error::ZeroLine`] never for such angles.
+    /// [`Error::NotConvex`] unless `|height| < 1/15`; [`Error::NoTurning`] for equal angles, [`Error::TurningTooLarge`]
+    /// unless `|end - start| < π`; [`Error::NonFinite`].
     pub fn arc(&self, start: f64, end: f64) -> Result<DualCurve, Error> {
         use bezier_mass::bernstein::{product, product_with};
+        self.check()?;
+        check_turning(start, end)?;
         let w = [DVec2::from_angle(0.5 * start), DVec2::from_angle(0.5 * end)];
         let square = product_with(&w, &w, |a, b| a.rotate(*b));
         let fourth = product_with(&square, &square, |a: &DVec2, b| a.rotate(*b));

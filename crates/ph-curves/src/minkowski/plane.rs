@@ -103,7 +103,8 @@ impl<S: Support> MinkowskiPlane<S> {
         if vector == DVec2::ZERO {
             return 0.0;
         }
-        vector.length() * self.indicatrix.jet((-vector.perp()).to_angle()).support
+        // The square of the length may overflow.
+        vector.x.hypot(vector.y) * self.indicatrix.jet((-vector.perp()).to_angle()).support
     }
 
     /// Whether `other` is `U`-normal to `vector`: a homothetic copy of the indicatrix centred on a line along
@@ -161,7 +162,7 @@ impl<S: Support> MinkowskiPlane<S> {
         self.frame(derivative)?;
         let contact = self.indicatrix.contact(self.normal_angle_of(derivative));
         // The tangent point u(psi) runs with the direction of F': its own direction turns by R sin(angle(u, T)) / |u|² dpsi.
-        let turning = derivative.perp_dot(second) / derivative.length_squared();
+        let turning = turning(derivative, second)?;
         let rate = contact.radius * contact.point.perp_dot(contact.normal.perp())
             / contact.point.length_squared();
         Ok(contact.radius * contact.support * (turning / rate) / self.norm(derivative))
@@ -175,7 +176,7 @@ impl<S: Support> MinkowskiPlane<S> {
     /// As for [`MinkowskiPlane::frame`].
     pub fn circular_curvature(&self, derivative: DVec2, second: DVec2) -> Result<f64, Error> {
         self.frame(derivative)?;
-        let curvature = derivative.perp_dot(second) / derivative.length().powi(3);
+        let curvature = turning(derivative, second)? / derivative.x.hypot(derivative.y);
         Ok(curvature
             * self
                 .indicatrix
@@ -194,7 +195,10 @@ impl<S: Support> MinkowskiPlane<S> {
         derivative: DVec2,
         distance: f64,
     ) -> Result<DVec2, Error> {
-        Ok(point + distance * self.frame(derivative)?.offset_direction)
+        finite(
+            point + distance * self.frame(derivative)?.offset_direction,
+            "point or distance of an offset",
+        )
     }
 
     /// The point of the evolute: the centre of the osculating copy of the indicatrix.
@@ -217,8 +221,8 @@ impl<S: Support> MinkowskiPlane<S> {
         self.offset_point(point, derivative, 1.0 / curvature)
     }
 
-    /// The point of the involute that starts at length `start` before the curve: `F - (start + s) t_U`, `s` the `U`-length
-    /// of the curve up to here. The curve is the evolute of it.
+    /// The point of the involute at distance `length` back along the tangent: `F - length t_U`. Where `length` is a constant
+    /// plus the `U`-length of the curve up to here, these points make an involute, and the curve is the evolute of it.
     ///
     /// # Errors
     ///
@@ -229,8 +233,31 @@ impl<S: Support> MinkowskiPlane<S> {
         derivative: DVec2,
         length: f64,
     ) -> Result<DVec2, Error> {
-        Ok(point - length * self.frame(derivative)?.tangent)
+        finite(
+            point - length * self.frame(derivative)?.tangent,
+            "point or length of an involute",
+        )
     }
+}
+
+/// The point, if it is one.
+fn finite(point: DVec2, what: &'static str) -> Result<DVec2, Error> {
+    if point.is_finite() {
+        Ok(point)
+    } else {
+        Err(Error::NonFinite { what })
+    }
+}
+
+/// The rate `det(F', F'') / |F'|²` at which the tangent turns, without squares that overflow.
+fn turning(derivative: DVec2, second: DVec2) -> Result<f64, Error> {
+    if !second.is_finite() {
+        return Err(Error::NonFinite {
+            what: "second derivative of a curve",
+        });
+    }
+    let speed = derivative.x.hypot(derivative.y);
+    Ok((derivative / speed).perp_dot(second / speed))
 }
 
 /// The general outward offset of a curve given by its support: supports add, `p + distance P`, so that the offset is the
@@ -378,5 +405,29 @@ mod tests {
             Err(Error::NonFinite { .. })
         ));
         assert_eq!(plane.norm(DVec2::ZERO), 0.0);
+        assert!(plane.curvature(DVec2::X, DVec2::NAN).is_err());
+        assert!(plane.circular_curvature(DVec2::X, DVec2::NAN).is_err());
+        for bad in [f64::NAN, f64::INFINITY] {
+            assert!(plane.offset_point(DVec2::ZERO, DVec2::X, bad).is_err());
+            assert!(plane.involute_point(DVec2::ZERO, DVec2::X, bad).is_err());
+        }
+    }
+
+    #[test]
+    fn huge_and_tiny_vectors_have_norms_and_curvatures() {
+        let plane = bumped();
+        let (v, second) = (DVec2::new(0.7, 0.4), DVec2::new(-0.2, 0.5));
+        let curvatures = |v: DVec2, second: DVec2| {
+            let circular = plane.circular_curvature(v, second).unwrap();
+            [plane.curvature(v, second).unwrap(), circular]
+        };
+        for size in [1e-200, 1e200] {
+            let ratio = plane.dual_norm(size * v) / size / plane.dual_norm(v);
+            assert!((ratio - 1.0).abs() < 1e-14);
+            let (here, there) = (curvatures(v, second), curvatures(size * v, size * second));
+            for (here, there) in here.iter().zip(there) {
+                assert!((there * size / here - 1.0).abs() < 1e-13);
+            }
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{IsoperimetricArc, Support};
+use super::{DualIndicatrix, IsoperimetricArc, Support};
 use crate::{DualCurve, Error, SupportJet};
 
 /// The support function `width/2 P + o`, `o` the odd part `(p(ψ) - p(ψ + π)) / 2` of any curve: the supports in opposite
@@ -42,8 +42,9 @@ impl<S: Support, C: Support> Support for ConstantMinkowskiWidth<S, C> {
 ///
 /// # Errors
 ///
-/// [`Error::TooFew`] unless there is a list of moves for each arc with one move a line; [`Error::NotRegular`] with the
-/// first arc whose curvature is not proved positive.
+/// [`Error::TooFew`] unless there is a list of moves for each arc with one move a line; the errors of
+/// [`DualIndicatrix::try_new`] if the arcs are not half an indicatrix; [`Error::NotRegular`] with the first arc whose
+/// curvature is not proved positive; [`Error::Gap`] where the moves tear the oval.
 pub fn constant_width_arcs(
     half: &[DualCurve],
     width: f64,
@@ -56,6 +57,7 @@ pub fn constant_width_arcs(
             needed: half.len().max(1),
         });
     }
+    DualIndicatrix::try_new(half.to_vec())?;
     let moved = half.iter().zip(moves).map(|(arc, moves)| {
         let (given, needed) = (moves.len(), arc.vectors().len());
         if given != needed {
@@ -79,22 +81,25 @@ pub fn constant_width_arcs(
         .map(|arc| arc.antipode(width))
         .collect::<Result<Vec<_>, _>>()?;
     arcs.extend(antipodes);
-    match arcs.iter().position(|arc| !arc.is_regular()) {
-        None => Ok(arcs),
-        Some(index) => {
-            let radius = |t: f64| {
-                arcs[index]
-                    .curve()
-                    .contact(t)
-                    .map_or(f64::NAN, |contact| contact.radius)
-            };
-            Err(Error::NotRegular {
+    for (index, arc) in arcs.iter().enumerate() {
+        let (next, curve) = (&arcs[(index + 1) % arcs.len()], arc.curve());
+        let (start, end) = (curve.contact(0.0)?, curve.contact(1.0)?);
+        if !arc.is_regular() {
+            return Err(Error::NotRegular {
                 index,
-                radii: [radius(0.0), radius(1.0)],
-            })
+                radii: [start.radius, end.radius],
+            });
+        }
+        let distance = end.point.distance(next.curve().contact(0.0)?.point);
+        if distance.is_nan() || distance > JOINT_TOLERANCE * end.point.distance(start.point) {
+            return Err(Error::Gap { index, distance });
         }
     }
+    Ok(arcs)
 }
+
+/// Consecutive arcs must meet to this share of their chord: far above rounding, far below anything that shows.
+const JOINT_TOLERANCE: f64 = 1e-8;
 
 #[cfg(test)]
 mod tests {
@@ -140,6 +145,17 @@ mod tests {
         assert!(matches!(
             constant_width_arcs(half.arcs(), 4.0, &[]),
             Err(Error::TooFew { .. })
+        ));
+        let quarter = bumped.arc(0.0, 1.0).unwrap();
+        assert!(matches!(
+            constant_width_arcs(&[quarter], 4.0, &[vec![0.0; 9]]),
+            Err(Error::Gap { .. })
+        ));
+        let mut torn = moves(0.0);
+        torn[0][8] = 0.01;
+        assert!(matches!(
+            constant_width_arcs(half.arcs(), 4.0, &torn),
+            Err(Error::Gap { index: 0, .. })
         ));
     }
 

@@ -83,8 +83,9 @@ impl Frame {
 ///
 /// # Errors
 ///
-/// [`Error::NonFinite`]; [`Error::ZeroDirection`] if a tangent turns back on its predecessor within one step, where no
-/// transport is defined.
+/// [`Error::NonFinite`]; [`Error::ZeroDirection`] for a zero tangent, and where no transport is defined: if a tangent is
+/// opposite to its predecessor at the same point, or is its mirror image in the bisecting plane of the two points (as on
+/// a step straight ahead after which the curve turns back).
 pub fn rotation_minimising_frames(
     first: Frame,
     samples: impl IntoIterator<Item = (DVec3, DVec3)>,
@@ -107,18 +108,47 @@ pub fn rotation_minimising_frames(
     Ok(frames)
 }
 
-/// One step: a reflection in the bisecting plane of the two points, then one that takes the reflected tangent to the new one.
+/// A reflected tangent this near to the new one does not tell the plane of the second reflection: its normal would have
+/// lost half its digits.
+const TURNING_BACK: f64 = 1e-8;
+
+/// One step: a reflection in the bisecting plane of the two points, then one that takes the reflected tangent to the new
+/// one. At a repeated point the first plane is that across the sum of the tangents, and both together are the smallest
+/// rotation of one tangent to the other.
 fn carried(before: DVec3, frame: Frame, point: DVec3, tangent: DVec3) -> Result<Frame, Error> {
-    let across_chord = |vector: DVec3| reflected(vector, point - before);
-    let turn = tangent - across_chord(frame.tangent);
-    Frame::try_new(tangent, reflected(across_chord(frame.second), turn))
+    let tangent = direction(tangent).ok_or(Error::ZeroDirection {
+        what: "tangent of a curve",
+    })?;
+    let sum = frame.tangent + tangent;
+    let turning_back = Error::ZeroDirection {
+        what: "turn of a tangent that turns back on itself",
+    };
+    let first = match direction(point - before) {
+        Some(chord) => chord,
+        None if sum.length() > TURNING_BACK => sum.normalize(),
+        None => return Err(turning_back),
+    };
+    let turn = tangent - reflected(frame.tangent, first);
+    if turn.length() <= TURNING_BACK {
+        return Err(turning_back);
+    }
+    let second = reflected(frame.second, first);
+    Frame::try_new(tangent, reflected(second, turn.normalize()))
 }
 
-/// The reflection of `vector` in the plane orthogonal to `normal`; the vector itself if `normal` is zero.
+/// The unit vector of this direction, of any size that is a number; none for zero.
+pub(super) fn direction(vector: DVec3) -> Option<DVec3> {
+    (vector / vector.abs().max_element()).try_normalize()
+}
+
+/// The length of a vector of any size, whose square may overflow.
+pub(super) fn length(vector: DVec3) -> f64 {
+    vector.x.hypot(vector.y).hypot(vector.z)
+}
+
+/// The reflection of `vector` in the plane orthogonal to a unit vector.
 fn reflected(vector: DVec3, normal: DVec3) -> DVec3 {
-    normal
-        .try_normalize()
-        .map_or(vector, |unit| vector - 2.0 * vector.dot(unit) * unit)
+    vector - 2.0 * vector.dot(normal) * normal
 }
 
 #[cfg(test)]
@@ -148,6 +178,40 @@ mod tests {
         assert!(error(200) < 1e-8);
         let order = (error(50) / error(100)).log2();
         assert!((order - 4.0).abs() < 0.1, "order {order}");
+    }
+
+    /// A repeated point is the limit of a short chord along the sum of the tangents.
+    #[test]
+    fn at_a_repeated_point_the_frame_turns_with_the_tangent() {
+        let start = Frame::try_new(DVec3::X, DVec3::Y).unwrap();
+        let frames =
+            rotation_minimising_frames(start, [(DVec3::ZERO, DVec3::X), (DVec3::ZERO, DVec3::Y)])
+                .unwrap();
+        assert!((frames[1].second - DVec3::NEG_X).length() < 1e-15);
+        assert!((frames[1].third - DVec3::Z).length() < 1e-15);
+        // So it is at a chord too long or too short to be squared.
+        for size in [1e-300, 1.0, 1e300] {
+            let chord = size * DVec3::new(1.0, 1.0, 0.0);
+            let samples = [(DVec3::ZERO, DVec3::X), (chord, DVec3::Y)];
+            let frames = rotation_minimising_frames(start, samples).unwrap();
+            assert!((frames[1].second - DVec3::NEG_X).length() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn a_tangent_that_turns_back_is_refused_where_no_frame_is_determined() {
+        let start = Frame::try_new(DVec3::X, DVec3::Y).unwrap();
+        for point in [DVec3::ZERO, DVec3::X] {
+            let samples = [(DVec3::ZERO, DVec3::X), (point, DVec3::NEG_X)];
+            assert!(matches!(
+                rotation_minimising_frames(start, samples),
+                Err(Error::ZeroDirection { .. })
+            ));
+        }
+        // Half a turn around a circle.
+        let samples = [(DVec3::ZERO, DVec3::X), (DVec3::Y, DVec3::NEG_X)];
+        let frames = rotation_minimising_frames(start, samples).unwrap();
+        assert!((frames[1].second - DVec3::NEG_Y).length() < 1e-15);
     }
 
     #[test]

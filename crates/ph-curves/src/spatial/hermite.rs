@@ -67,8 +67,9 @@ impl SpatialHermite {
     /// As for [`SpatialHermite::quintic`].
     pub fn least_bending(&self) -> Result<SpatialPh, Error> {
         self.preimage(SpatialHermiteAngles::default())?;
+        let unit = self.of_size_one();
         let energy = |angles: DVec2| {
-            self.quintic(free(angles))
+            unit.quintic(free(angles))
                 .map_or(f64::INFINITY, |curve| some_number(curve.bending_energy()))
         };
         self.quintic(free(minimise(energy)))
@@ -157,6 +158,20 @@ impl SpatialHermite {
         least_bent(curves).ok_or(Error::NoInterpolant {
             what: "PH quintic of the given length",
         })
+    }
+
+    /// The same data from the origin and of size one: energies of huge and tiny curves overflow.
+    fn of_size_one(&self) -> Self {
+        let chord = self.end - self.start;
+        let size = [chord, self.start_derivative, self.end_derivative]
+            .into_iter()
+            .fold(0.0, |size: f64, v| size.max(v.abs().max_element()));
+        Self {
+            start: DVec3::ZERO,
+            start_derivative: self.start_derivative / size,
+            end: chord / size,
+            end_derivative: self.end_derivative / size,
+        }
     }
 
     /// The same data with both derivatives multiplied by `factor`.
@@ -297,6 +312,21 @@ mod tests {
         // No choice on a grid that the search did not use is better.
         for angles in grid().map(|angles| angles + DVec2::new(0.1, 0.17)) {
             assert!(best.bending_energy() <= DATA.quintic(free(angles)).unwrap().bending_energy());
+        }
+    }
+
+    #[test]
+    fn the_least_bending_does_not_depend_on_the_size() {
+        let plain = DATA.least_bending().unwrap().arc_length().total();
+        for size in [1e-120, 1e-60, 1e60, 1e120] {
+            let data = SpatialHermite {
+                start: DATA.start * size,
+                start_derivative: DATA.start_derivative * size,
+                end: DATA.end * size,
+                end_derivative: DATA.end_derivative * size,
+            };
+            let found = data.least_bending().unwrap().arc_length().total();
+            assert!((found / size / plain - 1.0).abs() < 1e-9);
         }
     }
 

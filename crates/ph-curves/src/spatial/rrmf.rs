@@ -1,8 +1,11 @@
 //! Quintics with a rational rotation-minimising frame.
 
+use std::f64::consts::LN_2;
+
 use bezier_mass::{VectorSpace, bernstein};
 use glam::{DMat2, DVec2, DVec3};
 
+use super::frame::{direction, length};
 use super::hermite::{grid, some_number};
 use super::{Frame, Quaternion, SpatialPh};
 use crate::Error;
@@ -21,8 +24,11 @@ pub struct RationalFrameQuintic {
 
 /// The condition holds on rounded data if its residual is below this share of the speed's largest coefficient.
 const CONDITION_TOLERANCE: f64 = 1e-9;
-/// Newton's method on the two angles is quadratic but for its difference quotients; it is given up after this many steps.
+/// Newton's method is quadratic but for its difference quotients; it is given up after this many steps.
 const NEWTON_STEPS: usize = 40;
+/// Logarithms of the ratios of the end speeds from which it starts, and the largest one that it may reach.
+const STARTING_LOG_RATIOS: [f64; 3] = [0.0, -LN_2, LN_2];
+const LARGEST_LOG_RATIO: f64 = 6.0;
 
 impl RationalFrameQuintic {
     /// The vector `A0 i A2* + A2 i A0* - 2 A1 i A1*` that vanishes for an RRMF quintic, in the unit of the speed.
@@ -85,9 +91,12 @@ impl RationalFrameQuintic {
     /// An RRMF quintic through two points with given tangent directions there (G1 Hermite data).
     ///
     /// The lengths of the end derivatives are not given, and cannot be: RRMF quintics have one degree of freedom too few
-    /// for general C1 data. For each ratio of the two lengths out of a fixed list the two angles left are solved
-    /// for by Newton's method from a grid of starts; of all curves found the one of least bending energy is
-    /// returned. It meets the end point to about 1e-12 of the distance.
+    /// for general C1 data. Two angles and the ratio of the two lengths are solved for by Newton's method from a grid of
+    /// starts; of all curves found the one of least bending energy is returned. It meets the end point to about 1e-12 of
+    /// the distance.
+    ///
+    /// Not all data have an interpolant. Of random ones with tangents in all directions 28 % are refused, of those with
+    /// both tangents within 60 degrees of the chord 7 %; starts seven times as dense solve no more of them.
     ///
     /// # Errors
     ///
@@ -105,35 +114,48 @@ impl RationalFrameQuintic {
             });
         }
         let root = |tangent: DVec3| {
-            let unit = tangent.try_normalize().ok_or(Error::ZeroDirection {
+            let unit = direction(tangent).ok_or(Error::ZeroDirection {
                 what: "end tangent of Hermite data",
             })?;
             Quaternion::square_root(unit, 0.0)
         };
         let (first, last) = (root(start_tangent)?, root(end_tangent)?);
         let chord = end - start;
-        let towards = chord.try_normalize().ok_or(Error::ZeroDirection {
+        let towards = direction(chord).ok_or(Error::ZeroDirection {
             what: "chord of Hermite data",
         })?;
-        let mut best: Option<(f64, Self)> = None;
-        for ratio in [1.0, 0.5, 2.0, 0.25, 4.0] {
-            let ends = (first, last.times(f64::sqrt(ratio)));
+        let (side, up) = towards.any_orthonormal_pair();
+        let directed = Directed {
+            first,
+            last,
+            towards,
+            side,
+            up,
+        };
+        // Curves with a chord of length one are compared: energies of huge and tiny curves overflow.
+        let mut best: Option<(f64, [Quaternion; 3])> = None;
+        for log_ratio in STARTING_LOG_RATIOS {
             for angles in grid().step_by(3) {
-                let Some(preimage) = solve_direction(ends, towards, angles) else {
+                let Some(preimage) = directed.solve(angles.extend(log_ratio)) else {
                     continue;
                 };
-                let scale = (chord.length() / displacement(&preimage).length()).sqrt();
-                let curve = SpatialPh::try_new(start, preimage.map(|a| a.times(scale)))?;
-                let energy = some_number(curve.bending_energy());
-                if best.as_ref().is_none_or(|(least, _)| energy < *least)
-                    && let Ok(found) = Self::try_new(curve)
-                {
-                    best = Some((energy, found));
+                let scale = displacement(&preimage).length().sqrt().recip();
+                let preimage = preimage.map(|a| a.times(scale));
+                let energy =
+                    some_number(SpatialPh::try_new(DVec3::ZERO, preimage)?.bending_energy());
+                if best.is_none_or(|(least, _)| energy < least) {
+                    best = Some((energy, preimage));
                 }
             }
         }
-        best.map(|(_, found)| found).ok_or(Error::NoInterpolant {
+        let (_, unit) = best.ok_or(Error::NoInterpolant {
             what: "RRMF quintic",
+        })?;
+        let scale = length(chord).sqrt();
+        let found = Self::try_new(SpatialPh::try_new(DVec3::ZERO, unit)?)?;
+        Ok(Self {
+            curve: SpatialPh::try_new(start, unit.map(|a| a.times(scale)))?,
+            multiplier: found.multiplier.map(|w| scale * w),
         })
     }
 
@@ -183,55 +205,87 @@ fn displacement([first, middle, last]: &[Quaternion; 3]) -> DVec3 {
         / 5.0
 }
 
-/// Newton's method for the angle of the last coefficient and the angle of the middle one such that the chord points `towards`.
-fn solve_direction(
-    (first, last): (Quaternion, Quaternion),
+/// The quintics with given end tangents whose chord points in a given direction: a curve in the space of three unknowns,
+/// the angle of the last coefficient, the angle of the middle one, and the logarithm of the ratio of the end speeds.
+struct Directed {
+    first: Quaternion,
+    last: Quaternion,
     towards: DVec3,
-    start: DVec2,
-) -> Option<[Quaternion; 3]> {
-    let preimage_at = |angles: DVec2| {
-        let last = last.product(Quaternion::turn_about_i(angles.x));
-        Some([
-            first,
-            Quaternion::square_root(first.polar_image(last), angles.y).ok()?,
-            last,
-        ])
-    };
-    let (side, up) = towards.any_orthonormal_pair();
-    let defect = |angles: DVec2| {
-        let chord = displacement(&preimage_at(angles)?).try_normalize()?;
-        Some((
-            DVec2::new(chord.dot(side), chord.dot(up)),
-            chord.dot(towards),
-        ))
-    };
-    const DIFFERENCE: f64 = 1e-6;
-    let mut angles = start;
-    for _ in 0..NEWTON_STEPS {
-        let (value, along) = defect(angles)?;
-        if value.length() <= 4.0 * f64::EPSILON {
-            return if along > 0.0 {
-                preimage_at(angles)
-            } else {
-                None
-            };
-        }
-        let slope = |step: DVec2| {
-            Some((defect(angles + step)?.0 - defect(angles - step)?.0) / (2.0 * DIFFERENCE))
-        };
-        let jacobian =
-            DMat2::from_cols(slope(DVec2::X * DIFFERENCE)?, slope(DVec2::Y * DIFFERENCE)?);
-        if jacobian.determinant().abs() < 1e-12 {
-            return None;
-        }
-        angles -= (jacobian.inverse() * value).clamp_length_max(0.5);
+    side: DVec3,
+    up: DVec3,
+}
+
+/// Step of the difference quotients: their error, of order 2, balances rounding.
+const DIFFERENCE: f64 = 1e-6;
+/// The defect at which Newton's iteration ends, and that to which a few units of rounding may keep it.
+const FOUND: f64 = 4.0 * f64::EPSILON;
+const ALMOST_FOUND: f64 = 1e-13;
+/// Halvings of a step that does not lower the defect.
+const STEP_HALVINGS: usize = 8;
+
+impl Directed {
+    fn preimage(&self, unknowns: DVec3) -> Option<[Quaternion; 3]> {
+        let last = self
+            .last
+            .product(Quaternion::turn_about_i(unknowns.x))
+            .times((0.5 * unknowns.z).exp());
+        let middle = Quaternion::square_root(self.first.polar_image(last), unknowns.y).ok()?;
+        Some([self.first, middle, last])
     }
-    // Rounding of the last few units may keep the defect above its threshold.
-    let (value, along) = defect(angles)?;
-    if value.length() <= 1e-13 && along > 0.0 {
-        preimage_at(angles)
-    } else {
-        None
+
+    /// The rotation from the wanted direction to the chord's, as an angle along each of two axes; none for the opposite one.
+    fn defect(&self, unknowns: DVec3) -> Option<DVec2> {
+        let chord = direction(displacement(&self.preimage(unknowns)?))?;
+        let across = DVec2::new(chord.dot(self.side), chord.dot(self.up));
+        let (sine, cosine) = (across.length(), chord.dot(self.towards));
+        if sine > 0.0 {
+            Some(across * (sine.atan2(cosine) / sine))
+        } else {
+            (cosine > 0.0).then_some(DVec2::ZERO)
+        }
+    }
+
+    /// Newton's method with the shortest solution of the linear equations, two for three unknowns.
+    fn solve(&self, start: DVec3) -> Option<[Quaternion; 3]> {
+        let mut unknowns = start;
+        let mut value = self.defect(unknowns)?;
+        for _ in 0..NEWTON_STEPS {
+            if value.length() <= FOUND {
+                break;
+            }
+            let slope = |axis: DVec3| {
+                let step = DIFFERENCE * axis;
+                let (after, before) =
+                    (self.defect(unknowns + step)?, self.defect(unknowns - step)?);
+                Some((after - before) / (2.0 * DIFFERENCE))
+            };
+            let columns = [slope(DVec3::X)?, slope(DVec3::Y)?, slope(DVec3::Z)?];
+            // J Jᵀ y = value, step = Jᵀ y.
+            let normal = columns.iter().fold(DMat2::ZERO, |sum, c| {
+                sum + DMat2::from_cols(c.x * *c, c.y * *c)
+            });
+            if normal.determinant().abs() < 1e-14 {
+                return None;
+            }
+            let multiplier = normal.inverse() * value;
+            let newton =
+                DVec3::from_array(columns.map(|c| c.dot(multiplier))).clamp_length_max(0.5);
+            let better = (0..STEP_HALVINGS).find_map(|halvings| {
+                let next = unknowns - newton * 0.5_f64.powi(halvings as i32);
+                let found = self.defect(next)?;
+                (found.length() < value.length()).then_some((next, found))
+            });
+            match better {
+                Some((next, _)) if next.z.abs() > LARGEST_LOG_RATIO => return None,
+                Some(better) => (unknowns, value) = better,
+                None => break,
+            }
+        }
+        if value.length() <= ALMOST_FOUND {
+            self.preimage(unknowns)
+        } else {
+            None
+        }
     }
 }
 
@@ -305,6 +359,34 @@ mod tests {
             assert!(curve.velocity(0.0).angle_between(start_tangent) < 1e-7);
             assert!(curve.velocity(1.0).angle_between(end_tangent) < 1e-7);
             assert!(curve.bending_energy().is_finite());
+        }
+    }
+
+    /// Data that have an interpolant only at a ratio of the end speeds that has to be found, at any size.
+    #[test]
+    fn the_ratio_of_the_end_speeds_is_found() {
+        let (start_tangent, end, end_tangent) = (
+            DVec3::new(-0.96668, -0.20691, -0.15070),
+            DVec3::new(-0.13388, -0.28800, 0.36844),
+            DVec3::new(-0.07906, -0.01934, -0.99668),
+        );
+        let plain = RationalFrameQuintic::interpolate(DVec3::ZERO, start_tangent, end, end_tangent)
+            .unwrap();
+        for size in [2.0_f64.powi(-400), 1.0, 2.0_f64.powi(400)] {
+            let quintic = RationalFrameQuintic::interpolate(
+                DVec3::ZERO,
+                size * start_tangent,
+                size * end,
+                size * end_tangent,
+            )
+            .unwrap();
+            let curve = quintic.curve();
+            assert!((curve.point(1.0) / size - end).length() < 1e-12 * end.length());
+            let tangent = |t: f64| direction(curve.velocity(t)).unwrap();
+            assert!((tangent(0.0) - start_tangent.normalize()).length() < 1e-12);
+            assert!((tangent(1.0) - end_tangent.normalize()).length() < 1e-12);
+            let growth = curve.arc_length().total() / size / plain.curve().arc_length().total();
+            assert!((growth - 1.0).abs() < 1e-12);
         }
     }
 
