@@ -90,3 +90,45 @@ fn on_every_mesh(triples: usize, seed: u64) {
 fn twenty_thousand_exact_distances_are_a_metric_and_met_by_paths() {
     on_every_mesh(334, 6);
 }
+
+/// A point on a short edge that rounding puts at the edge's end is a source in all directions.
+#[cfg(feature = "triangulate")]
+#[test]
+fn sources_that_coincide_with_a_vertex() {
+    use geodesic::SurfacePoint;
+    use geodesic::glam::{DVec2, DVec3};
+    let mut state = 7u64;
+    let mut random = || {
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    // A flat sheet, so that chords are distances, with clusters of points.
+    let points: Vec<DVec3> = (0..300)
+        .map(|i| {
+            let width = if i % 3 == 0 { 1e-5 } else { 1.0 };
+            let centre = DVec2::new(f64::from(i % 5) * 0.2, f64::from(i % 7) * 0.14);
+            let [x, y] = [(); 2].map(|()| width * random());
+            (centre + DVec2::new(x, y)).extend(0.0)
+        })
+        .collect();
+    let mesh = Mesh::terrain(&points, &[]).unwrap();
+    let mut sweep = Sweep::new(&mesh);
+    let halfedges = mesh.halfedge_count() as u32;
+    for (h, t) in (0..halfedges).flat_map(|h| [2e-12, 1e-11, 1e-10, 1e-8, 1e-6].map(|t| (h, t))) {
+        let a = SurfacePoint::Edge { halfedge: h, t };
+        let b = SurfacePoint::Edge {
+            halfedge: (h * 104_729 + 959) % halfedges,
+            t: 0.5250892478272535,
+        };
+        let [there, back] = [(a, b), (b, a)].map(|(from, to)| sweep.distance(from, to).unwrap());
+        let [from, to] = [a, b].map(|p| mesh.point_position(p).unwrap());
+        assert!(
+            (there - back).abs() < 10.0 * AGREEMENT * mesh.diameter(),
+            "{h} {t:e}: {there} {back}"
+        );
+        // The hull of the points is not quite convex.
+        assert!(there - from.distance(to) < 2e-3, "{h} {t:e}: {there}");
+    }
+}
