@@ -321,8 +321,8 @@ pub enum Error {
         /// Second parameter.
         v: f64,
     },
-    /// A tolerance that is not a positive number.
-    #[error("the tolerance {tolerance} is not a positive number")]
+    /// A tolerance that is not a positive number, or smaller than can be worked to.
+    #[error("the tolerance {tolerance} is not a positive number, or too small")]
     InvalidTolerance {
         /// The tolerance.
         tolerance: f64,
