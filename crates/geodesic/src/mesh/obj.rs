@@ -77,16 +77,22 @@ fn prepare(text: &[u8]) -> (Vec<u8>, usize) {
     let text = continued(text);
     let mut geometry = Vec::with_capacity(text.len());
     let mut vertices = 0;
-    let is_end = |&byte: &u8| byte == b'\n' || byte == b'\r';
-    for line in text.split(is_end).map(<[u8]>::trim_ascii) {
+    // Old files end their lines with a carriage return alone; one before a line feed is trimmed.
+    let end = if text.contains(&b'\n') { b'\n' } else { b'\r' };
+    let has_comments = text.contains(&b'#');
+    for line in text.split(|&byte| byte == end).map(<[u8]>::trim_ascii) {
+        let line = match line {
+            [b'v' | b'f', ..] if has_comments => without_comment(line),
+            _ => line,
+        };
         match line {
             [b'v', b' ' | b'\t', ..] => {
                 vertices += 1;
-                geometry.extend_from_slice(without_colour(without_comment(line)));
+                geometry.extend_from_slice(without_colour(line));
                 geometry.push(b'\n');
             }
             [b'f', b' ' | b'\t', ..] => {
-                geometry.extend_from_slice(without_comment(line));
+                geometry.extend_from_slice(line);
                 geometry.push(b'\n');
             }
             _ => {}
