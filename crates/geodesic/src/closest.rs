@@ -68,7 +68,8 @@ impl<'m> ClosestPoint<'m> {
     /// Builds the hierarchy of boxes, in time proportional to the number of faces and its logarithm.
     #[must_use]
     pub fn new(mesh: &'m Mesh) -> Self {
-        let centre = mesh.positions().first().copied().unwrap_or_default();
+        // A vertex of a face: others may lie anywhere.
+        let centre = mesh.position(mesh.origin(0));
         let scale = 1.0 / mesh.diameter();
         let boxes: Vec<FaceBox> = mesh
             .faces()

@@ -50,7 +50,7 @@ pub enum Error {
         /// The repeated vertex.
         vertex: u32,
     },
-    /// A face has no area, to rounding.
+    /// A face has no area, to rounding, or no side of 1e-70 or more.
     #[error("face {face} {vertices:?} has no area (area over squared longest side: {ratio:e})")]
     DegenerateFace {
         /// The face.
@@ -59,6 +59,12 @@ pub enum Error {
         vertices: [u32; 3],
         /// Twice its area over the square of its longest side.
         ratio: f64,
+    },
+    /// The mesh is too small or too large to compute with: the bounding box of its faces has a diagonal outside 1e-62..1e62.
+    #[error("the mesh is {size:e} across, not between 1e-62 and 1e62; scale it")]
+    MeshSize {
+        /// Length of the diagonal.
+        size: f64,
     },
     /// The same triangle occurs twice, with the same orientation.
     #[error("faces {} and {} are the same triangle", .faces[0], .faces[1])]
@@ -178,6 +184,12 @@ pub enum Error {
         /// Position of the first of them.
         position: usize,
     },
+    /// Two things that are used together belong to different meshes, or a path was changed by hand.
+    #[error("the {what} belongs to another mesh")]
+    OtherMesh {
+        /// Which of them.
+        what: &'static str,
+    },
     /// Shortening was stopped before the path was locally shortest.
     #[error("the path was not locally shortest after {updates} updates")]
     NotConverged {
@@ -210,6 +222,14 @@ pub enum Error {
     DirectionLeavesFace {
         /// The face.
         face: u32,
+    },
+    /// From a point, the direction leads off the surface: over the boundary, or away from all faces.
+    #[error("at {point} the direction {direction:?} leads into no face")]
+    DirectionLeavesSurface {
+        /// The direction.
+        direction: [f64; 3],
+        /// The point.
+        point: SurfacePoint,
     },
     /// A length is negative or not finite.
     #[error("the length {length} is negative or not finite")]
@@ -257,6 +277,14 @@ pub enum Error {
         /// Number of boundary edges.
         boundaries: usize,
     },
+    /// More classes of loops asked for than one search may look for.
+    #[error("turns up to {largest} were asked for; at most {limit} can be")]
+    TooManyClasses {
+        /// The largest number of turns asked for.
+        largest: u32,
+        /// The largest number that may be asked for.
+        limit: u32,
+    },
     /// Two loops do not generate all classes of loops.
     #[error(
         "the two loops do not generate all classes: their crossings have determinant {determinant}, not 1 or -1"
@@ -293,8 +321,8 @@ pub enum Error {
         /// Second parameter.
         v: f64,
     },
-    /// A tolerance that is not a positive number.
-    #[error("the tolerance {tolerance} is not a positive number")]
+    /// A tolerance that is not a positive number, or smaller than can be worked to.
+    #[error("the tolerance {tolerance} is not a positive number, or too small")]
     InvalidTolerance {
         /// The tolerance.
         tolerance: f64,

@@ -18,6 +18,13 @@ pub const CERTIFIED_ANGLE: f64 = 1e-9;
 /// Points of a certified path may lie this far off the straight line of their unfolded stretch, relative to its length.
 pub const CERTIFIED_STRAIGHTNESS: f64 = 1e-9;
 
+/// Points of a path are placed to so many times the rounding of the mesh's coordinates.
+const BLUR: f64 = 4.0;
+
+/// Points of a path lie on its mesh where the path says to this part of the mesh's diameter: some decimals may have been
+/// lost on the way through a file.
+const SAME_PLACE: f64 = 1e-9;
+
 /// A vertex that a path passes through between its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -90,9 +97,27 @@ impl GeodesicPath {
     ///
     /// # Errors
     ///
-    /// [`Error::BrokenSequence`] or an error about a point, if the path does not belong to this mesh.
+    /// [`Error::BrokenSequence`], [`Error::SegmentLeavesFace`] or an error about a point or a face, if the path does not
+    /// belong to this mesh.
     pub fn certify(&self, mesh: &Mesh) -> Result<Certificate, Error> {
         certify(mesh, &self.points, &self.faces)
+    }
+
+    /// As [`GeodesicPath::certify`], for a path whose points must lie in space where it says.
+    ///
+    /// A path keeps no reference to its mesh, so that it can be stored: its positions tell the mesh.
+    pub(crate) fn measure(&self, mesh: &Mesh) -> Result<Certificate, Error> {
+        let certificate = self.certify(mesh)?;
+        let is_here = |(point, position): (&SurfacePoint, &DVec3)| {
+            mesh.locate(*point).distance(*position) <= SAME_PLACE * mesh.diameter()
+        };
+        let fits = self.positions.len() == self.points.len()
+            && self.points.iter().zip(&self.positions).all(is_here);
+        if fits {
+            Ok(certificate)
+        } else {
+            Err(Error::OtherMesh { what: "path" })
+        }
     }
 
     fn push(&mut self, mesh: &Mesh, point: SurfacePoint) {
@@ -155,10 +180,15 @@ impl GeodesicPath {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Certificate {
-    /// Largest distance of a point from the straight line of its unfolded stretch, over the length of the stretch.
+    /// Largest distance of a point from the straight line of its unfolded stretch, less what the rounding of coordinates
+    /// explains, over the length of the stretch.
     pub straightness: f64,
     /// Smallest side angle at a vertex between the ends, in radians; infinite if there is none.
     pub smallest_side_angle: f64,
+    /// Largest amount by which a side angle falls short of π, less what rounding explains of it: the rounding of the
+    /// coordinates over the distance to the nearer of the two points next to the vertex. Where a path begins 1e-9 beside
+    /// a vertex, its direction there is known to 1e-7 only. In radians; 0 if no angle falls short.
+    pub shortfall: f64,
     /// Length of the path, added up in space.
     pub length: f64,
     /// What the rounding of the coordinates can do to these angles, in radians: for each face involved, an ulp of its
@@ -167,12 +197,12 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// Whether the path is a geodesic: straight to [`CERTIFIED_STRAIGHTNESS`], with side angles of at least π less
-    /// [`CERTIFIED_ANGLE`], both widened by [`rounding`](Self::rounding).
+    /// Whether the path is a geodesic: straight to [`CERTIFIED_STRAIGHTNESS`], with a [`shortfall`](Self::shortfall) of
+    /// side angles of at most [`CERTIFIED_ANGLE`], both widened by [`rounding`](Self::rounding).
     #[must_use]
     pub fn is_geodesic(&self) -> bool {
         self.straightness <= CERTIFIED_STRAIGHTNESS + self.rounding
-            && self.smallest_side_angle >= PI - CERTIFIED_ANGLE - self.rounding
+            && self.shortfall <= CERTIFIED_ANGLE + self.rounding
     }
 }
 
@@ -188,15 +218,26 @@ pub(crate) fn certify(
     let mut certificate = Certificate {
         straightness: 0.0,
         smallest_side_angle: f64::INFINITY,
+        shortfall: 0.0,
         length: 0.0,
         rounding: 0.0,
     };
+    // One face for each segment: a list that is too short would leave the rest of the path unexamined.
+    if faces.len() != points.len().saturating_sub(1) {
+        return Err(Error::SegmentLeavesFace {
+            position: faces.len().min(points.len()),
+        });
+    }
+    for &point in points.iter().take(1) {
+        mesh.canonical(point)?;
+    }
     let mut stretch = vec![DVec2::ZERO];
     let mut rotation = DVec2::X;
     for (i, (ends, &face)) in points.windows(2).zip(faces).enumerate() {
         let step = step_in_face(mesh, face, ends[0], ends[1])?;
         certificate.length += step.length();
         certificate.rounding += angle_rounding(mesh, face);
+        let blur = BLUR * f64::EPSILON * (mesh.diameter() + largest_coordinate(mesh, face));
         let here = stretch.last().copied().unwrap_or_default();
         stretch.push(here + rotation.rotate(step));
         let onward = faces.get(i + 1).zip(points.get(i + 2));
@@ -223,9 +264,11 @@ pub(crate) fn certify(
                 }
             }
             (point, onward) => {
-                certificate.straightness = certificate.straightness.max(bow(&stretch));
+                certificate.straightness = certificate.straightness.max(bow(&stretch, blur));
                 stretch.truncate(1);
                 if let (SurfacePoint::Vertex(v), Some((&next_face, &after))) = (point, onward) {
+                    // Before it is used: whether the next face exists and contains the vertex.
+                    let onward_step = step_in_face(mesh, next_face, point, after)?;
                     let incoming = ray_in_face(mesh, face, point, ends[0]);
                     let outgoing = ray_in_face(mesh, next_face, point, after);
                     let (left, right) = side_angles(mesh, v, incoming, outgoing);
@@ -233,8 +276,11 @@ pub(crate) fn certify(
                         .star(v)
                         .map(|h| angle_rounding(mesh, face_of(h)))
                         .sum::<f64>();
+                    let explained = blur / step.length().min(onward_step.length());
                     for side in [left, right].into_iter().flatten() {
                         certificate.smallest_side_angle = certificate.smallest_side_angle.min(side);
+                        // Of 0/0, where the points coincide, all is explained.
+                        certificate.shortfall = certificate.shortfall.max(PI - side - explained);
                     }
                 }
             }
@@ -246,12 +292,17 @@ pub(crate) fn certify(
 /// An ulp of the corners of a face over its height: the angle that rounding moves it by.
 fn angle_rounding(mesh: &Mesh, face: u32) -> f64 {
     let [a, b, c] = mesh.faces()[face as usize].map(|v| mesh.position(v));
-    let size = [a, b, c]
-        .map(|p| p.abs().max_element())
-        .into_iter()
-        .fold(0.0, f64::max);
+    let size = largest_coordinate(mesh, face);
     let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
     f64::EPSILON * size * longest / (b - a).cross(c - a).length()
+}
+
+/// The largest coordinate of the corners of a face.
+fn largest_coordinate(mesh: &Mesh, face: u32) -> f64 {
+    mesh.faces()[face as usize]
+        .map(|v| mesh.position(v).abs().max_element())
+        .into_iter()
+        .fold(0.0, f64::max)
 }
 
 /// The corners of a face in a plane frame of its own.
@@ -295,8 +346,8 @@ pub(crate) fn step_in_face(
 }
 
 /// Largest distance of the points from the line through the first and the last, or how much longer their polyline is
-/// than that chord, over the chord.
-fn bow(stretch: &[DVec2]) -> f64 {
+/// than that chord, less what rounding explains, over the chord.
+fn bow(stretch: &[DVec2], blur: f64) -> f64 {
     let (Some(&first), Some(&last)) = (stretch.first(), stretch.last()) else {
         return 0.0;
     };
@@ -313,5 +364,46 @@ fn bow(stretch: &[DVec2]) -> f64 {
         .windows(2)
         .map(|ends| ends[0].distance(ends[1]))
         .sum();
-    aside.max(walked - length) / length
+    (aside.max(walked - length) - blur).max(0.0) / length
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{PathFinder, shapes};
+
+    /// As it may come out of a file.
+    #[test]
+    fn paths_that_do_not_fit_the_mesh_are_refused() {
+        let cube = shapes::cube().unwrap();
+        let torus = shapes::torus(2.0, 0.7, 24, 12).unwrap();
+        let around: Vec<SurfacePoint> = [0, 1, 5, 7].map(SurfacePoint::Vertex).to_vec();
+        for faces in [
+            vec![999_999],
+            vec![0, 5, 900],
+            vec![4, 900, 900],
+            vec![4, 5],
+            vec![],
+        ] {
+            for count in 0..=4 {
+                let path = GeodesicPath {
+                    points: around[..count].to_vec(),
+                    faces: faces.clone(),
+                    ..GeodesicPath::default()
+                };
+                let refused = path.certify(&cube).is_err() && path.unfold(&cube).is_err();
+                // No points and one point are paths without a segment.
+                assert!(refused || (faces.is_empty() && count < 2), "{path:?}");
+            }
+        }
+        let mut finder = PathFinder::new(&torus);
+        let path = finder.shortest(0.into(), 150.into()).unwrap();
+        assert!(path.certify(&cube).is_err() && path.unfold(&cube).is_err());
+        assert!(path.measure(&torus).is_ok());
+        let larger = shapes::torus(20.0, 7.0, 24, 12).unwrap();
+        assert_eq!(
+            path.measure(&larger),
+            Err(Error::OtherMesh { what: "path" })
+        );
+    }
 }

@@ -19,8 +19,11 @@ pub(crate) const SIDE_ANGLE: f64 = TOUCH_ANGLE;
 pub(crate) const STRICTLY: f64 = 1e-14;
 
 /// A bend of 1e-7 at a vertex lengthens a path by 1e-14 of itself, which rounding hides, while the angle says clearly
-/// that the path should pass on the other side. So many updates that change the length by rounding only are made in one
-/// query; a path through needles of 1e-6 needs a few of them.
+/// that the path should pass on the other side. So many updates that change the length by rounding only are made at one
+/// vertex, ...
+const SIDEWAYS_AT_VERTEX: usize = 2;
+
+/// ... and so many in one query: a path through needles of 1e-6 needs a few of them.
 const SIDEWAYS: usize = 1000;
 
 /// A direction at a vertex: the outgoing half-edge of the face in which it lies, and the angle from that half-edge.
@@ -104,8 +107,8 @@ pub(crate) struct Shortener {
     fresh: Vec<Node>,
     arrival: Ray,
     pub(crate) updates: usize,
-    /// Updates left that need not shorten the path.
-    sideways: usize,
+    /// The vertices of the updates that changed the length by rounding only.
+    sideways: Vec<u32>,
     pub(crate) hops: Vec<Hop>,
 }
 
@@ -114,7 +117,7 @@ impl Shortener {
     pub(crate) fn begin(&mut self, mesh: &Mesh, from: SurfacePoint, to: SurfacePoint) {
         self.store.clear();
         self.updates = 0;
-        self.sideways = SIDEWAYS;
+        self.sideways.clear();
         self.solve_strip(mesh, from, to);
         self.nodes.clear();
         self.nodes.append(&mut self.fresh);
@@ -137,8 +140,8 @@ impl Shortener {
         &self.store[leg.start as usize..(leg.start + leg.count) as usize]
     }
 
-    /// Updates at the sharpest vertex, over and over, until every side angle is at least π or `limit` updates were
-    /// made. Returns whether it got there.
+    /// Updates at the sharpest vertex, over and over, until every side angle is at least π or `limit` updates that shorten
+    /// the path were made. Returns whether it got there.
     pub(crate) fn shorten(
         &mut self,
         mesh: &Mesh,
@@ -146,13 +149,14 @@ impl Shortener {
         mut observe: impl FnMut(&Self, Update),
     ) -> bool {
         while let Some((i, angle, side)) = self.sharpest() {
-            if self.updates >= limit {
+            // Those that do not are few on their own account, and may be more than a small mesh has faces.
+            if self.updates >= limit + self.sideways.len() {
                 return false;
             }
-            let point = self.nodes[i].point;
-            if self.update(mesh, i, side)
-                && let SurfacePoint::Vertex(vertex) = point
-            {
+            let SurfacePoint::Vertex(vertex) = self.nodes[i].point else {
+                return false;
+            };
+            if self.update(mesh, i, vertex, side) {
                 self.updates += 1;
                 observe(
                     self,
@@ -181,9 +185,9 @@ impl Shortener {
         best
     }
 
-    /// Replaces the faces about node `i` by those on the given side and makes the path taut again between its
+    /// Replaces the faces about node `i`, a vertex, by those on the given side and makes the path taut again between its
     /// neighbours. Returns whether that was kept.
-    fn update(&mut self, mesh: &Mesh, i: usize, side: Side) -> bool {
+    fn update(&mut self, mesh: &Mesh, i: usize, vertex: u32, side: Side) -> bool {
         let (before, node, after) = (self.nodes[i - 1], self.nodes[i], self.nodes[i + 1].point);
         self.load(before.leg);
         push_fan(mesh, &mut self.strip, node.incoming, node.outgoing, side);
@@ -192,19 +196,18 @@ impl Shortener {
         }
         self.strip.trim(mesh, before.point, after);
         let old = before.leg.length + node.leg.length;
-        let mut sideways = self.sideways;
+        let may_go_sideways = self.sideways.len() < SIDEWAYS
+            && self.sideways.iter().filter(|&&v| v == vertex).count() < SIDEWAYS_AT_VERTEX;
+        let mut shortens = false;
         let accept = |new: f64| {
-            if new < old * (1.0 - STRICTLY) {
-                return true;
-            }
-            let rounding_only = new <= old * (1.0 + STRICTLY) && sideways > 0;
-            sideways = sideways.saturating_sub(1);
-            rounding_only
+            shortens = new < old * (1.0 - STRICTLY);
+            shortens || (may_go_sideways && new <= old * (1.0 + STRICTLY))
         };
         let kept = self.replace(mesh, i - 1, i + 1, accept);
-        self.sideways = sideways;
         if !kept {
             self.nodes[i].settled = true;
+        } else if !shortens {
+            self.sideways.push(vertex);
         }
         kept
     }

@@ -44,6 +44,7 @@ pub fn cube() -> Result<Mesh, Error> {
 ///
 /// [`Error::TooManyFaces`] above level 13.
 pub fn sphere(level: u32) -> Result<Mesh, Error> {
+    refuse_too_many(20u128.saturating_mul(4u128.saturating_pow(level)))?;
     let g = (1.0 + 5.0f64.sqrt()) / 2.0;
     let mut soup = TriangleSoup::default();
     for (a, b) in [(-1.0, -g), (1.0, -g), (-1.0, g), (1.0, g)] {
@@ -74,12 +75,7 @@ pub fn sphere(level: u32) -> Result<Mesh, Error> {
         }
     }
     for _ in 0..level {
-        if soup.faces.len() > (u32::MAX / 12) as usize {
-            return Err(Error::TooManyFaces {
-                faces: soup.faces.len().saturating_mul(4),
-            });
-        }
-        soup = subdivide(&soup);
+        soup = subdivide(&soup)?;
         for p in &mut soup.positions {
             *p = p.normalize();
         }
@@ -94,7 +90,7 @@ pub fn sphere(level: u32) -> Result<Mesh, Error> {
 ///
 /// # Errors
 ///
-/// Those of [`Mesh::new`], for fewer than 3 vertices around or radii that are not finite.
+/// Those of [`Mesh::new`], for fewer than 3 vertices around or radii that are not finite. [`Error::TooManyFaces`] comes before any memory is taken.
 pub fn torus(major: f64, minor: f64, around: u32, tube: u32) -> Result<Mesh, Error> {
     let point = |i: u32, j: u32| {
         let (u, v) = (
@@ -104,6 +100,7 @@ pub fn torus(major: f64, minor: f64, around: u32, tube: u32) -> Result<Mesh, Err
         let rho = major + minor * v.cos();
         DVec3::new(rho * u.cos(), rho * u.sin(), minor * v.sin())
     };
+    refuse_too_many(2 * u128::from(around) * u128::from(tube))?;
     let (mut positions, mut faces) = (Vec::new(), Vec::new());
     for j in 0..tube {
         for i in 0..around {
@@ -128,6 +125,11 @@ pub fn sheet(
     rows: u32,
     mut surface: impl FnMut(DVec2) -> DVec3,
 ) -> Result<Mesh, Error> {
+    refuse_too_many(2 * u128::from(columns) * u128::from(rows))?;
+    // A row without cells is no mesh, however long it is.
+    if columns == 0 || rows == 0 {
+        return Err(Error::EmptyMesh);
+    }
     let (mut positions, mut faces) = (Vec::new(), Vec::new());
     for j in 0..=rows {
         for i in 0..=columns {
@@ -149,6 +151,9 @@ pub fn sheet(
 ///
 /// Those of [`Mesh::new`].
 pub fn plate(holes: u32, level: u32) -> Result<Mesh, Error> {
+    // 18 h + 14 sides of cubes are not shared.
+    let triangles = 36 * u128::from(holes) + 28;
+    refuse_too_many(triangles.saturating_mul(4u128.saturating_pow(level)))?;
     let solid = |x: i64, y: i64, z: i64| {
         let inside = (0..=2 * i64::from(holes)).contains(&x) && (0..3).contains(&y) && z == 0;
         inside && !(y == 1 && x % 2 == 1)
@@ -189,14 +194,28 @@ pub fn plate(holes: u32, level: u32) -> Result<Mesh, Error> {
         }
     }
     for _ in 0..level {
-        soup = smooth(subdivide(&soup));
+        soup = smooth(subdivide(&soup)?);
     }
     soup.try_into()
 }
 
 /// Every triangle cut in four at the midpoints of its edges. The first vertices are those of the given triangles.
-#[must_use]
-pub fn subdivide(soup: &TriangleSoup) -> TriangleSoup {
+///
+/// # Errors
+///
+/// [`Error::IndexOutOfRange`]; [`Error::TooManyFaces`] if there would be.
+pub fn subdivide(soup: &TriangleSoup) -> Result<TriangleSoup, Error> {
+    refuse_too_many(4 * soup.faces.len() as u128)?;
+    let vertices = soup.positions.len();
+    for (face, corners) in soup.faces.iter().enumerate() {
+        if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices) {
+            return Err(Error::IndexOutOfRange {
+                face: face as u32,
+                vertex,
+                vertices,
+            });
+        }
+    }
     let mut fine = TriangleSoup {
         positions: soup.positions.clone(),
         faces: Vec::with_capacity(4 * soup.faces.len()),
@@ -213,7 +232,16 @@ pub fn subdivide(soup: &TriangleSoup) -> TriangleSoup {
         fine.faces
             .extend([[a, ab, ca], [b, bc, ab], [c, ca, bc], [ab, bc, ca]]);
     }
-    fine
+    Ok(fine)
+}
+
+/// Refuses a number of faces that no mesh can have, before memory is taken for them.
+fn refuse_too_many(faces: u128) -> Result<(), Error> {
+    if faces >= u128::from(u32::MAX / 3) {
+        let faces = usize::try_from(faces).unwrap_or(usize::MAX);
+        return Err(Error::TooManyFaces { faces });
+    }
+    Ok(())
 }
 
 /// Every vertex moved half-way to the mean of its neighbours.

@@ -20,6 +20,9 @@ const STARTS: usize = 24;
 /// States settled in the search for one loop before it is given up: some hundred megabytes.
 const BUDGET: usize = 4_000_000;
 
+/// Turns either way that one search may look for: 16,640 classes.
+const LARGEST_TURNS: u32 = 64;
+
 /// The homotopy classes of a torus, with a basis chosen by two loops.
 ///
 /// ```
@@ -144,8 +147,8 @@ impl<'m> TorusClasses<'m> {
     ///
     /// # Errors
     ///
-    /// An error about the point; [`Error::DirectionLeavesFace`] if no face lies in the direction; those of
-    /// [`LoopFinder::held_at_first`]. A class whose search is given up is left out.
+    /// An error about the point; [`Error::NonFinite`], [`Error::NoTangentialPart`] or [`Error::DirectionLeavesSurface`]
+    /// about the direction; [`Error::TooManyClasses`] for `largest` above 64; those of [`LoopFinder::held_at_first`]. A class whose search is given up is left out.
     pub fn through(
         &mut self,
         point: SurfacePoint,
@@ -154,16 +157,20 @@ impl<'m> TorusClasses<'m> {
     ) -> Result<Vec<([i32; 2], DirectedLoop)>, Error> {
         let mesh = self.mesh;
         let point = mesh.canonical(point)?;
-        let face = Straightest::new(mesh)
-            .face_towards(point, direction)
-            .ok_or(Error::DirectionLeavesFace { face: 0 })?;
+        if largest > LARGEST_TURNS {
+            return Err(Error::TooManyClasses {
+                largest,
+                limit: LARGEST_TURNS,
+            });
+        }
+        let face = Straightest::new(mesh).find_face_towards(point, direction)?;
         let start = mesh.faces()[face as usize];
         let nearest = |a: &&u32, b: &&u32| {
             let distance = |v: u32| mesh.position(v).distance(mesh.locate(point));
             distance(**a).total_cmp(&distance(**b))
         };
         let start = start.iter().min_by(nearest).copied().unwrap_or(start[0]);
-        let largest = i32::try_from(largest).unwrap_or(i32::MAX);
+        let largest = largest as i32;
         let classes = (-largest..=largest).flat_map(|p| (-largest..=largest).map(move |q| [p, q]));
         let classes: Vec<[i32; 2]> = classes.filter(|&class| class != [0, 0]).collect();
         let targets: Vec<[i32; 2]> = classes
@@ -217,18 +224,19 @@ impl<'m> TorusClasses<'m> {
         known.insert(origin, (0.0, origin));
         heap.push(Reverse((0u64, origin)));
         let mut loops = vec![None; targets.len()];
-        let mut missing = targets.len();
+        let mut wanted: HashMap<[i32; 2], usize> = targets.iter().copied().zip(0..).collect();
         while let Some(Reverse((key, here))) = heap.pop() {
             let distance = f64::from_bits(key);
-            if missing == 0 || distance >= bound || *settled >= BUDGET {
+            if wanted.is_empty() || distance >= bound || *settled >= BUDGET {
                 break;
             }
             if known.get(&here).is_some_and(|k| k.0 < distance) {
                 continue;
             }
             *settled += 1;
-            let reached = targets.iter().position(|&t| (start, t) == here);
-            if let Some(target) = reached.filter(|&t| loops[t].is_none()) {
+            if here.0 == start
+                && let Some(target) = wanted.remove(&here.1)
+            {
                 let mut points = Vec::new();
                 let mut at = here;
                 while let Some(&(_, before)) = known.get(&at).filter(|k| k.1 != at) {
@@ -237,7 +245,6 @@ impl<'m> TorusClasses<'m> {
                 }
                 points.reverse();
                 loops[target] = Some((distance, points));
-                missing -= 1;
             }
             for h in self.mesh.star(here.0) {
                 let [x, y] = self.crossings[h as usize];

@@ -2,11 +2,11 @@
 
 use glam::DVec2;
 
-use crate::SurfacePoint;
 use crate::loops::strip_along;
 use crate::mesh::{Mesh, face_of};
 use crate::path::GeodesicPath;
 use crate::strip::Strip;
+use crate::{Error, SurfacePoint};
 
 /// The faces along a path in the plane, each isometric to the one on the mesh and joined to the last along their common
 /// edge, and the path in them: a straight line but for its pivots.
@@ -25,13 +25,17 @@ pub struct Unfolding {
 
 impl GeodesicPath {
     /// Lays the faces along the path flat.
-    #[must_use]
-    pub fn unfold(&self, mesh: &Mesh) -> Unfolding {
+    ///
+    /// # Errors
+    ///
+    /// Those of [`GeodesicPath::certify`], if the path does not belong to this mesh.
+    pub fn unfold(&self, mesh: &Mesh) -> Result<Unfolding, Error> {
+        self.certify(mesh)?;
         let mut strip = Strip::default();
         let (Some(&first), Some(&start), Some(&end)) =
             (self.faces.first(), self.points.first(), self.points.last())
         else {
-            return Unfolding::default();
+            return Ok(Unfolding::default());
         };
         strip_along(mesh, &self.points, &self.faces, &mut strip);
         strip.flatten(mesh, start, end);
@@ -67,11 +71,11 @@ impl GeodesicPath {
             points.push(image(place, point));
         }
         points.push(image(place, end));
-        Unfolding {
+        Ok(Unfolding {
             faces,
             corners,
             points,
-        }
+        })
     }
 }
 
@@ -98,7 +102,7 @@ mod tests {
         let mut finder = PathFinder::new(&mesh);
         for to in [5, 40, 99, 161] {
             let path = finder.shortest(0.into(), to.into()).unwrap().clone();
-            let flat = path.unfold(&mesh);
+            let flat = path.unfold(&mesh).unwrap();
             for (face, corners) in flat.faces.iter().zip(&flat.corners) {
                 let h = 3 * face;
                 for k in 0..3u32 {

@@ -3,7 +3,7 @@
 
 use geodesic::glam::{DVec2, DVec3, dvec2, dvec3};
 use geodesic::{
-    LoopFinder, Mesh, PathFinder, Start, Straightest, SurfacePoint, Sweep, TorusSurface,
+    Error, LoopFinder, Mesh, PathFinder, Start, Straightest, SurfacePoint, Sweep, TorusSurface,
     closed_torus_geodesic, shapes,
 };
 
@@ -215,4 +215,122 @@ fn broken_files_are_refused() {
         assert!(Mesh::read_obj(&file).is_err(), "{text:?}");
     }
     assert!(Mesh::read_obj("no such file.obj").is_err());
+}
+
+#[test]
+fn things_of_different_meshes_are_not_mixed() {
+    let (small, big) = (
+        shapes::torus(2.0, 0.7, 24, 12).unwrap(),
+        shapes::torus(20.0, 7.0, 24, 12).unwrap(),
+    );
+    let mut finder = PathFinder::new(&small);
+    let path = finder.shortest(0.into(), 150.into()).unwrap().clone();
+    assert!(Sweep::new(&small).shorten_globally(&path).is_ok());
+    for other in [&big, &shapes::cube().unwrap()] {
+        assert!(Sweep::new(other).shorten_globally(&path).is_err());
+    }
+    let mut sweep = Sweep::new(&small);
+    let field = sweep.from_points(&[0.into()]).unwrap();
+    assert!(field.path_to(150.into(), &mut finder).is_ok());
+    assert_eq!(
+        field.path_to(150.into(), &mut PathFinder::new(&big)),
+        Err(Error::OtherMesh { what: "finder" })
+    );
+}
+
+/// Vertices without faces may lie anywhere.
+#[test]
+fn unreferenced_vertices_do_not_count_in_the_size() {
+    let torus = shapes::torus(2.0, 0.7, 24, 12).unwrap();
+    let mut positions = torus.positions().to_vec();
+    positions.push(DVec3::splat(1e200));
+    let with_stray = Mesh::new(&positions, torus.faces()).unwrap();
+    assert_eq!(with_stray.diameter(), torus.diameter());
+    let meridian: Vec<SurfacePoint> = (0..12).map(|j| SurfacePoint::Vertex(24 * j)).collect();
+    let [plain, stray] =
+        [&torus, &with_stray].map(|mesh| LoopFinder::new(mesh).tighten(&meridian).unwrap());
+    assert_eq!(plain, stray);
+}
+
+#[cfg(feature = "closest-point")]
+#[test]
+fn the_closest_point_does_not_depend_on_unreferenced_vertices() {
+    let cube = shapes::cube().unwrap();
+    // First in the list, so that all faces are renumbered.
+    let mut positions = vec![dvec3(1e200, 1e200, 0.0)];
+    positions.extend_from_slice(cube.positions());
+    let faces: Vec<[u32; 3]> = cube.faces().iter().map(|f| f.map(|v| v + 1)).collect();
+    let mesh = Mesh::new(&positions, &faces).unwrap();
+    let closest = geodesic::ClosestPoint::new(&mesh);
+    let found = closest.find(dvec3(0.3, 0.6, 5.0)).unwrap();
+    assert!(found.position.distance(dvec3(0.3, 0.6, 1.0)) < 1e-15);
+}
+
+#[test]
+fn sizes_out_of_range_have_a_name() {
+    let torus = shapes::torus(2.0, 0.7, 24, 12).unwrap();
+    let scaled = |scale: f64| {
+        let positions: Vec<DVec3> = torus.positions().iter().map(|p| *p * scale).collect();
+        Mesh::new(&positions, torus.faces())
+    };
+    for scale in [1e-120, 1e-80, 1e-65, 1e62, 1e80, 1e160] {
+        assert!(
+            matches!(scaled(scale), Err(Error::MeshSize { .. })),
+            "{scale:e}"
+        );
+    }
+    let length = PathFinder::new(&torus)
+        .shortest(3.into(), 150.into())
+        .unwrap()
+        .length();
+    for scale in [1e-60, 1e-20, 1e20, 1e60] {
+        let mesh = scaled(scale).unwrap();
+        let mut finder = PathFinder::new(&mesh);
+        let path = finder.shortest(3.into(), 150.into()).unwrap();
+        assert!((path.length() / (length * scale) - 1.0).abs() < 1e-12);
+        assert!(path.certify(&mesh).unwrap().is_geodesic(), "{scale:e}");
+    }
+}
+
+#[test]
+fn limits_and_tolerances_are_checked() {
+    let torus = shapes::torus(2.0, 0.7, 24, 12).unwrap();
+    let mut sweep = Sweep::new(&torus);
+    for limit in [f64::NAN, -1.0, f64::NEG_INFINITY] {
+        let refused = sweep.within(&[0.into()], limit).map(|_| ());
+        assert!(matches!(refused, Err(Error::InvalidLength { .. })));
+    }
+    assert!(sweep.within(&[0.into()], 0.0).is_ok());
+    let mut loops = LoopFinder::new(&torus);
+    for tolerance in [f64::NAN, -1.0, 0.0, f64::INFINITY] {
+        let refused = loops.through(0.into(), DVec3::Y, 10.0, tolerance);
+        assert!(matches!(refused, Err(Error::InvalidTolerance { .. })));
+    }
+}
+
+#[test]
+fn shapes_too_large_are_refused_before_they_take_memory() {
+    let max = u32::MAX;
+    for mesh in [
+        shapes::torus(2.0, 1.0, 1 << 20, 1 << 20),
+        shapes::sheet(max, max, |p| p.extend(0.0)),
+        shapes::plate(max, 0),
+        shapes::plate(1, max),
+        shapes::sphere(max),
+    ] {
+        assert!(matches!(mesh, Err(Error::TooManyFaces { .. })));
+    }
+    assert!(shapes::sheet(max, 0, |p| p.extend(0.0)).is_err());
+    let soup = geodesic::TriangleSoup {
+        positions: vec![DVec3::ZERO],
+        faces: vec![[0, 0, 1]],
+    };
+    assert_eq!(
+        shapes::subdivide(&soup),
+        Err(Error::IndexOutOfRange {
+            face: 0,
+            vertex: 1,
+            vertices: 1
+        })
+    );
 }

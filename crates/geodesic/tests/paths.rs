@@ -1,7 +1,7 @@
 //! Locally shortest paths: closed forms, and the certificate on many random pairs.
 
 use geodesic::glam::DVec3;
-use geodesic::{Error, Mesh, PathFinder, Start, shapes};
+use geodesic::{Error, Mesh, PathFinder, Start, SurfacePoint, shapes};
 
 #[test]
 fn closed_forms() {
@@ -166,4 +166,64 @@ fn hostile_questions_are_refused() {
     assert_eq!(finder.guided(&[a]), Err(Error::ShortLoop { points: 1 }));
     assert_eq!(finder.shortest(a, a).unwrap().length(), 0.0);
     assert_eq!(finder.guided(&[a, a]).unwrap().length(), 0.0);
+}
+
+/// Ends within 1e-11 to 1e-7 of a vertex: bends there are lost in rounding, and many updates change nothing else.
+#[test]
+fn ends_close_to_vertices() {
+    let flat = |n| shapes::sheet(n, n, |p| p.extend(0.0)).unwrap();
+    let close = |halfedge, t| SurfacePoint::Edge { halfedge, t };
+    let (small, large) = (flat(3), flat(8));
+    for (mesh, from, to) in [
+        (&small, close(49, 0.999999999), close(40, 1e-9)),
+        (&large, close(9, 0.999999999), close(225, 0.999999999)),
+    ] {
+        let mut finder = PathFinder::new(mesh);
+        let path = finder.shortest(from, to).unwrap();
+        let certificate = path.certify(mesh).unwrap();
+        assert!(certificate.is_geodesic(), "{certificate:?}");
+    }
+    let meshes = [
+        small,
+        large,
+        shapes::cube().unwrap(),
+        shapes::torus(2.0, 0.7, 24, 12).unwrap(),
+        shapes::plate(1, 1).unwrap(),
+    ];
+    let mut state = 1u64;
+    let mut random = |n: usize| {
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        ((state >> 33) % n as u64) as u32
+    };
+    for mesh in &meshes {
+        let mut finder = PathFinder::new(mesh);
+        for _ in 0..1500 {
+            let near = [1e-11, 1e-10, 1e-9, 1e-8, 1e-7][random(5) as usize];
+            let ends = [(); 2].map(|()| match random(3) {
+                0 => SurfacePoint::Vertex(random(mesh.vertex_count())),
+                1 => close(random(mesh.halfedge_count()), near),
+                _ => close(random(mesh.halfedge_count()), 1.0 - near),
+            });
+            let path = finder.shortest(ends[0], ends[1]).unwrap();
+            let certificate = path.certify(mesh).unwrap();
+            assert!(certificate.is_geodesic(), "{ends:?} {certificate:?}");
+        }
+    }
+}
+
+/// What rounding explains at an end close to a vertex is no excuse for a bend further on.
+#[test]
+fn bends_far_from_the_ends_are_not_excused() {
+    let sheet = shapes::sheet(8, 8, |p| p.extend(0.0)).unwrap();
+    let mut finder = PathFinder::new(&sheet);
+    // Up the first column and along the second row, from a point 1e-10 beside vertex 0.
+    let from = sheet.edge_point(0, 9, 1e-10).unwrap();
+    let mut faces: Vec<u32> = vec![1, 16, 17, 32];
+    faces.extend((1..8).flat_map(|i| [32 + 2 * i + 1, 32 + 2 * i]));
+    let to = sheet.edge_point(26, 35, 0.3).unwrap();
+    let bent = finder.taut(&faces, from, to).unwrap();
+    assert!(!bent.pivots().is_empty());
+    assert!(!bent.certify(&sheet).unwrap().is_geodesic());
 }

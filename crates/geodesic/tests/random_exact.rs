@@ -90,3 +90,41 @@ fn on_every_mesh(triples: usize, seed: u64) {
 fn twenty_thousand_exact_distances_are_a_metric_and_met_by_paths() {
     on_every_mesh(334, 6);
 }
+
+/// A point on a short edge that rounding puts at the edge's end is a source in all directions.
+#[cfg(feature = "triangulate")]
+#[test]
+fn sources_that_coincide_with_a_vertex() {
+    use geodesic::SurfacePoint;
+    use geodesic::glam::{DVec2, DVec3};
+    let mut state = 7u64;
+    let mut random = || {
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    // A flat sheet, so that chords are distances, with clusters of points.
+    let points: Vec<DVec3> = (0..300)
+        .map(|i| {
+            let width = if i % 3 == 0 { 1e-5 } else { 1.0 };
+            let centre = DVec2::new(f64::from(i % 5) * 0.2, f64::from(i % 7) * 0.14);
+            let [x, y] = [(); 2].map(|()| width * random());
+            (centre + DVec2::new(x, y)).extend(0.0)
+        })
+        .collect();
+    let mesh = Mesh::terrain(&points, &[]).unwrap();
+    let mut sweep = Sweep::new(&mesh);
+    for halfedge in [63, 409] {
+        let a = SurfacePoint::Edge { halfedge, t: 1e-11 };
+        let b = SurfacePoint::Edge {
+            halfedge: 959,
+            t: 0.5250892478272535,
+        };
+        let [there, back] = [(a, b), (b, a)].map(|(from, to)| sweep.distance(from, to).unwrap());
+        let [from, to] = [a, b].map(|p| mesh.point_position(p).unwrap());
+        assert!((there - back).abs() < 10.0 * AGREEMENT * mesh.diameter());
+        // The hull of the points is not quite convex.
+        assert!(there - from.distance(to) < 2e-3, "{halfedge}: {there}");
+    }
+}

@@ -181,3 +181,59 @@ fn hostile_traces_are_refused() {
     let answer = Straightest::new(&cube).with_normals(&[DVec3::Z; 3]);
     assert!(matches!(answer, Err(Error::InvalidNormal { vertex: 3 })));
 }
+
+/// Every direction of the tangent plane of a vertex leads into a face, one that may lie along an edge.
+#[test]
+fn tangent_directions_at_convex_vertices_have_a_face() {
+    let meshes = [
+        shapes::cube().unwrap(),
+        shapes::torus(2.0, 0.7, 24, 12).unwrap(),
+        shapes::sphere(2).unwrap(),
+    ];
+    for mesh in &meshes {
+        let tracer = Straightest::new(mesh);
+        let normals = mesh.vertex_normals();
+        for (v, &normal) in (0..).map(SurfacePoint::Vertex).zip(&normals) {
+            let (x, y) = normal.normalize().any_orthonormal_pair();
+            for k in 0..100 {
+                let direction = DVec2::from_angle(f64::from(k) * 0.0628);
+                let direction = direction.x * x + direction.y * y;
+                let face = tracer.face_towards(v, direction).unwrap();
+                let trace = tracer.trace(v, face, direction, 0.01).unwrap();
+                assert_eq!(trace.stop, Stop::Length);
+                let way = trace.positions[trace.positions.len() - 1] - trace.positions[0];
+                assert!((way.length() - 0.01).abs() < 1e-12);
+                assert!(way.dot(direction) > 0.0);
+            }
+        }
+    }
+    // Away from all faces, and over the edge of a table, there is nothing.
+    let away = Straightest::new(&meshes[0]).face_towards(0.into(), DVec3::NEG_ONE);
+    assert_eq!(away, None);
+    let table = table(3, 3);
+    assert_eq!(
+        Straightest::new(&table).face_towards(1.into(), DVec3::NEG_Y),
+        None
+    );
+}
+
+#[test]
+fn loops_are_sought_in_every_tangent_direction() {
+    let torus = shapes::torus(2.0, 0.7, 24, 12).unwrap();
+    let mut finder = geodesic::LoopFinder::new(&torus);
+    // The outer equator, over the edges between two rows of faces.
+    let loops = finder.through(0.into(), DVec3::Y, 30.0, 0.5).unwrap();
+    assert!(!loops.is_empty());
+    assert!(matches!(
+        finder.through(0.into(), DVec3::NAN, 30.0, 0.5),
+        Err(Error::NonFinite { .. })
+    ));
+    assert!(matches!(
+        finder.through(0.into(), DVec3::ZERO, 30.0, 0.5),
+        Err(Error::NoTangentialPart { .. })
+    ));
+    assert!(matches!(
+        finder.through(0.into(), DVec3::X, 30.0, 0.5),
+        Err(Error::DirectionLeavesSurface { .. })
+    ));
+}

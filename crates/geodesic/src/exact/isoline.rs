@@ -16,6 +16,9 @@ const JOINED: f64 = 1e-7;
 /// Distances that differ by less than this share are equal when arcs are sorted out.
 const EQUAL: f64 = 1e-10;
 
+/// The least tolerance, relative to the mesh: a circle around it then has some hundred thousand points.
+const FINEST: f64 = 1e-10;
+
 /// A line on which the distance has one value.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -61,12 +64,16 @@ impl DistanceField<'_, '_> {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidLength`] unless the level and the tolerance are positive and finite.
+    /// [`Error::InvalidLength`] unless the level and the tolerance are positive and finite; [`Error::InvalidTolerance`] for
+    /// a tolerance below 1e-10 of the mesh's diameter, which takes more points than rounding lets differ.
     pub fn isolines(&self, level: f64, tolerance: f64) -> Result<Vec<Isoline>, Error> {
         for length in [level, tolerance] {
             if !length.is_finite() || length <= 0.0 {
                 return Err(Error::InvalidLength { length });
             }
+        }
+        if tolerance < FINEST * self.sweep.mesh().diameter() {
+            return Err(Error::InvalidTolerance { tolerance });
         }
         if level > self.sweep.limit() {
             return Ok(Vec::new());
@@ -256,8 +263,8 @@ fn arcs_in_face(
                 if (end - start) * radius < 0.5 * JOINED * mesh.diameter() {
                     continue;
                 }
-                // An arc of angle 2 a strays from its chord by r (1 - cos a).
-                let half = (1.0 - (tolerance / radius).min(1.0)).acos();
+                // An arc of angle 2 a strays from its chord by r (1 - cos a) = 2 r sin² (a / 2).
+                let half = 2.0 * (0.5 * tolerance / radius).min(0.5).sqrt().asin();
                 let steps = ((end - start) / (2.0 * half)).ceil().max(1.0);
                 arcs.push(Arc {
                     face,

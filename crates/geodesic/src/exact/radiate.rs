@@ -13,9 +13,13 @@ use crate::{FLAT_ANGLE, SurfacePoint};
 /// The directions in which ways go on from a vertex are widened by this, in radians, against the rounding of their angles.
 const WEDGE_SLACK: f64 = 1e-9;
 
+/// Vertices within so many times the distance at which a source coincides with a vertex have the ways behind them
+/// radiated anew: from a source 1e-6 of the diameter away, the windows on either side know their edge to 1e-10.
+const NEAR: f64 = 1e8;
+
 impl Sweep<'_> {
     /// Whether shortest ways may pass a vertex (only where the surface has more than a full turn, or more than half a turn
-    /// at the boundary) or begin there.
+    /// at the boundary) or begin there, or so near that rounding could lose the directions behind it.
     pub(super) fn radiates(&self, v: u32) -> bool {
         let mesh = self.mesh;
         let straight = if mesh.is_boundary_vertex(v) {
@@ -23,7 +27,7 @@ impl Sweep<'_> {
         } else {
             TAU + FLAT_ANGLE
         };
-        mesh.angle(v) > straight || self.vertex_distance(v) == 0.0
+        mesh.angle(v) > straight || self.vertex_distance(v) <= NEAR * self.coincident
     }
 
     /// A vertex whose distance is known: along its edges, and across its faces where a shortest way may go on.
@@ -44,13 +48,13 @@ impl Sweep<'_> {
                 );
             }
         }
-        let Some((arrival, into)) = self.arrival_direction(v) else {
+        let Some((arrival, into, blur)) = self.arrival_direction(v) else {
             for h in mesh.star(v) {
                 self.radiate_across(h, 0.0, TAU);
             }
             return;
         };
-        let low = PI - WEDGE_SLACK;
+        let low = (PI - WEDGE_SLACK - blur).max(0.0);
         let is_boundary = mesh.is_boundary_vertex(v);
         let high = if is_boundary {
             f64::INFINITY
@@ -79,26 +83,27 @@ impl Sweep<'_> {
         }
     }
 
-    /// The direction from which the shortest way reaches a vertex: an outgoing half-edge, and the angle from it into its face.
-    /// `None` at a source.
-    fn arrival_direction(&self, v: u32) -> Option<(u32, f64)> {
+    /// The direction from which the shortest way reaches a vertex: an outgoing half-edge, the angle from it into its face, and
+    /// what rounding may do to that angle. `None` at a source, and at a vertex that a source on an edge or in a face cannot be told from.
+    fn arrival_direction(&self, v: u32) -> Option<(u32, f64, f64)> {
         let mesh = self.mesh;
         let angle = |from: DVec2, to: DVec2| from.perp_dot(to).atan2(from.dot(to)).max(0.0);
         match self.arrival(v) {
             Arrival::None => None,
+            Arrival::Source(_) if self.vertex_distance(v) <= self.coincident => None,
             Arrival::Source(number) => {
                 let source = self.sources[number as usize];
                 let h = mesh
                     .star(v)
                     .find(|&h| mesh.face_contains(face_of(h), source))?;
                 let to = local_coordinates(mesh, h, source);
-                (to != DVec2::ZERO).then(|| (h, angle(DVec2::X, to)))
+                Some((h, angle(DVec2::X, to), self.coincident / to.length()))
             }
             Arrival::Edge(u) => mesh.star(v).find_map(|h| {
                 if mesh.tip(h) == u {
-                    Some((h, 0.0))
+                    Some((h, 0.0, 0.0))
                 } else if mesh.apex(h) == u {
-                    Some((h, mesh.corner_angle(h)))
+                    Some((h, mesh.corner_angle(h), 0.0))
                 } else {
                     None
                 }
@@ -107,7 +112,9 @@ impl Sweep<'_> {
                 halfedge, source, ..
             } => {
                 let top = apex(mesh, halfedge);
-                Some((previous(halfedge), angle(-top, source - top)))
+                let back = source - top;
+                let blur = self.coincident / back.length();
+                Some((previous(halfedge), angle(-top, back), blur))
             }
         }
     }
@@ -147,14 +154,10 @@ impl Sweep<'_> {
     pub(super) fn radiate_inside(&mut self, point: SurfacePoint, number: u32) {
         let mesh = self.mesh;
         for f in mesh.faces_of(point) {
-            let position = mesh.locate(point);
             for h in 3 * f..3 * f + 3 {
-                let (a, b) = (mesh.position(mesh.origin(h)), mesh.position(mesh.tip(h)));
-                self.reach(
-                    mesh.origin(h),
-                    (position - a).length(),
-                    Arrival::Source(number),
-                );
+                // From its weights and not from its position, which loses how far it is from an edge near by.
+                let local = local_coordinates(mesh, h, point);
+                self.reach(mesh.origin(h), local.length(), Arrival::Source(number));
                 // An edge that the source lies on is not crossed but shared: its other face is one of the source's faces.
                 let on_edge = matches!(point, SurfacePoint::Edge { halfedge, .. }
                     if halfedge == h || mesh.twins()[halfedge as usize] == h);
@@ -163,15 +166,12 @@ impl Sweep<'_> {
                     continue;
                 }
                 let length = mesh.length(h);
-                let along = (b - a) / length;
-                let x = (position - a).dot(along);
-                let height = (position - a).cross(along).length();
                 self.admit(
                     twin,
                     Window {
                         start: 0.0,
                         end: length,
-                        source: DVec2::new(length - x, -height),
+                        source: DVec2::new(length - local.x, -local.y),
                         base: 0.0,
                         origin: POINT_SOURCE | number,
                         older: NONE,

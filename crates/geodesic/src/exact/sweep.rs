@@ -39,6 +39,8 @@ pub struct Sweep<'m> {
     purpose: Purpose,
     /// Where the target lies.
     ahead: Option<DVec3>,
+    /// A vertex this near to a source is at the same place, to rounding: no direction leads from one to the other.
+    pub(super) coincident: f64,
 }
 
 /// What a sweep is for: when it stops, and which windows it keeps.
@@ -97,6 +99,10 @@ const VERTEX: u32 = 1 << 31;
 /// Numbers of sources that are no vertices carry this bit.
 pub(crate) const POINT_SOURCE: u32 = 1 << 31;
 
+/// A vertex is where a source is if it is nearer than this part of the mesh's diameter, or of the source's coordinates:
+/// some ten roundings.
+const COINCIDENT: f64 = 1e-14;
+
 impl<'m> Sweep<'m> {
     /// A sweep over a mesh, with empty buffers.
     #[must_use]
@@ -116,6 +122,7 @@ impl<'m> Sweep<'m> {
             slots: Vec::new(),
             purpose: Purpose::Vertices,
             ahead: None,
+            coincident: 0.0,
         }
     }
 
@@ -141,12 +148,15 @@ impl<'m> Sweep<'m> {
     ///
     /// # Errors
     ///
-    /// As for [`Sweep::from_points`].
+    /// As for [`Sweep::from_points`]; [`Error::InvalidLength`] for a limit that is negative or not a number.
     pub fn within(
         &mut self,
         sources: &[SurfacePoint],
         limit: f64,
     ) -> Result<DistanceField<'_, 'm>, Error> {
+        if limit.is_nan() || limit < 0.0 {
+            return Err(Error::InvalidLength { length: limit });
+        }
         self.start(sources, Purpose::Field { limit })?;
         // What lies beyond is known from above only.
         for &v in &self.touched_vertices {
@@ -252,6 +262,9 @@ impl<'m> Sweep<'m> {
             Purpose::Target(point) => Some(self.mesh.locate(point)),
             _ => None,
         };
+        let farthest = |p: DVec3| p.abs().max_element();
+        let coordinate = self.sources.iter().map(|&p| farthest(self.mesh.locate(p)));
+        self.coincident = COINCIDENT * coordinate.fold(self.mesh.diameter(), f64::max);
         for number in 0..self.sources.len() as u32 {
             match self.sources[number as usize] {
                 SurfacePoint::Vertex(v) => self.reach(v, 0.0, Arrival::Source(number)),

@@ -40,13 +40,15 @@ impl<'m> Sweep<'m> {
     ///
     /// # Errors
     ///
-    /// As for [`Sweep::shortest_path`]; [`Error::SegmentLeavesFace`] for a path without points.
+    /// As for [`Sweep::shortest_path`]; [`Error::SegmentLeavesFace`] for a path without points; [`Error::OtherMesh`] or
+    /// another error about the path if it does not lie on this mesh.
     pub fn shorten_globally(&mut self, path: &GeodesicPath) -> Result<Globally, Error> {
         let (Some(&from), Some(&to)) = (path.points().first(), path.points().last()) else {
             return Err(Error::SegmentLeavesFace { position: 0 });
         };
+        let length = path.measure(self.mesh())?.length;
         let distance = self.distance(from, to)?;
-        let was_shortest = path.length() <= distance * (1.0 + EQUAL_LENGTHS);
+        let was_shortest = length <= distance * (1.0 + EQUAL_LENGTHS);
         let path = if was_shortest {
             path.clone()
         } else {
@@ -81,14 +83,17 @@ impl DistanceField<'_, '_> {
     ///
     /// # Errors
     ///
-    /// An error about a point that is not on the mesh; [`Error::NoPath`] to a point that was not reached;
-    /// [`Error::NotConverged`] if the trace was lost.
+    /// [`Error::OtherMesh`] for a finder on another mesh than the field; an error about a point that is not on the mesh;
+    /// [`Error::NoPath`] to a point that was not reached; [`Error::NotConverged`] if the trace was lost.
     pub fn path_to(
         &self,
         to: SurfacePoint,
         finder: &mut PathFinder<'_>,
     ) -> Result<GeodesicPath, Error> {
         let mesh = self.sweep.mesh();
+        if !std::ptr::eq(mesh, finder.mesh()) {
+            return Err(Error::OtherMesh { what: "finder" });
+        }
         let to = mesh.canonical(to)?;
         let mut faces: Vec<u32> = Vec::new();
         let mut at = to;

@@ -83,7 +83,8 @@ impl LoopFinder<'_> {
     ///
     /// # Errors
     ///
-    /// As for [`Straightest::trace`]; [`Error::DirectionLeavesFace`] if no face lies in that direction.
+    /// As for [`Straightest::trace`]; [`Error::DirectionLeavesSurface`] if no face lies in that direction;
+    /// [`Error::InvalidTolerance`].
     pub fn through(
         &mut self,
         point: SurfacePoint,
@@ -93,10 +94,11 @@ impl LoopFinder<'_> {
     ) -> Result<Vec<DirectedLoop>, Error> {
         let mesh = self.finder.mesh();
         let point = mesh.canonical(point)?;
+        if !(tolerance > 0.0 && tolerance.is_finite()) {
+            return Err(Error::InvalidTolerance { tolerance });
+        }
         let tracer = Straightest::new(mesh);
-        let face = tracer
-            .face_towards(point, direction)
-            .ok_or(Error::DirectionLeavesFace { face: 0 })?;
+        let face = tracer.find_face_towards(point, direction)?;
         let trace = tracer.trace(point, face, direction, reach)?;
         let start = trace.positions[0];
         let mut answers: Vec<DirectedLoop> = Vec::new();

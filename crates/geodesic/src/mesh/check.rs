@@ -10,6 +10,13 @@ use crate::Error;
 /// times larger than the noise in it, and anything thinner has angles that no longer mean anything.
 pub(super) const DEGENERATE: f64 = 1e-12;
 
+/// Sizes of meshes that are accepted: areas are squared on the way to a normal, and beyond these bounds the squares of
+/// thin faces leave the range of numbers.
+const SIZES: std::ops::RangeInclusive<f64> = 1e-62..=1e62;
+
+/// A face whose longest side is below this has no area that could be squared.
+const SHORTEST: f64 = 1e-70;
+
 /// The rules on single vertices and faces, and the faces as triples.
 pub(super) fn triangles<F: AsRef<[u32]>>(
     positions: &[DVec3],
@@ -61,12 +68,32 @@ pub(super) fn finite(positions: &[DVec3]) -> Result<(), Error> {
     }
 }
 
+/// The diagonal of the bounding box of the vertices of faces, if it is in range.
+pub(super) fn size(vertices: impl Iterator<Item = DVec3>) -> Result<f64, Error> {
+    let (low, high) = vertices.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+        (low.min(p), high.max(p))
+    });
+    let size = (high - low).length();
+    if SIZES.contains(&size) {
+        Ok(size)
+    } else {
+        Err(Error::MeshSize { size })
+    }
+}
+
 /// The length of every half-edge; refuses faces without area.
 pub(super) fn edge_lengths(positions: &[DVec3], faces: &[[u32; 3]]) -> Result<Vec<f64>, Error> {
     let mut lengths = Vec::with_capacity(3 * faces.len());
     for (face, &vertices) in faces.iter().enumerate() {
         let corners = vertices.map(|v| positions[v as usize]);
         if let Some(ratio) = degenerate_ratio(corners) {
+            // Areas that cannot be squared look like none.
+            let used = faces.as_flattened().iter().map(|&v| positions[v as usize]);
+            if let Err(Error::MeshSize { size }) = size(used)
+                && size > 0.0
+            {
+                return Err(Error::MeshSize { size });
+            }
             return Err(Error::DegenerateFace {
                 face: face as u32,
                 vertices,
@@ -87,7 +114,8 @@ pub(super) fn degenerate_ratio([a, b, c]: [DVec3; 3]) -> Option<f64> {
         .max(c.distance_squared(a));
     let ratio = (b - a).cross(c - a).length() / longest;
     // A quotient that overflows or is 0/0 (coincident or huge corners) is degenerate as well.
-    (ratio <= DEGENERATE || !ratio.is_finite()).then_some(ratio)
+    let is_tiny = longest < SHORTEST * SHORTEST;
+    (ratio <= DEGENERATE || !ratio.is_finite() || is_tiny).then_some(ratio)
 }
 
 /// The rule that these faces break, given that some directed edge occurs twice.

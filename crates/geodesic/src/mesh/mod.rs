@@ -68,9 +68,9 @@ impl Mesh {
     /// The first of these rules that is broken anywhere: at least one face ([`Error::EmptyMesh`]), finite coordinates
     /// ([`Error::NonFiniteVertex`]), three corners ([`Error::NotATriangle`]), indices in range
     /// ([`Error::IndexOutOfRange`]), distinct corners ([`Error::RepeatedVertex`]), positive area
-    /// ([`Error::DegenerateFace`]), at most two faces at an edge ([`Error::NonManifoldEdge`]), each directed edge once
-    /// ([`Error::RepeatedFace`], [`Error::InconsistentOrientation`]), one fan of faces at each vertex
-    /// ([`Error::NonManifoldVertex`]). A soup that breaks them can be mended by [`TriangleSoup::repair`].
+    /// ([`Error::DegenerateFace`], or [`Error::MeshSize`] where the mesh is not of a size between 1e-62 and 1e62), at most
+    /// two faces at an edge ([`Error::NonManifoldEdge`]), each directed edge once ([`Error::RepeatedFace`],
+    /// [`Error::InconsistentOrientation`]), one fan of faces at each vertex ([`Error::NonManifoldVertex`]). A soup that breaks them can be mended by [`TriangleSoup::repair`].
     pub fn new<F: AsRef<[u32]>>(positions: &[DVec3], faces: &[F]) -> Result<Self, Error> {
         let faces = check::triangles(positions, faces)?;
         Self::from_triangles(positions.to_vec(), faces)
@@ -96,12 +96,8 @@ impl Mesh {
         let lengths = check::edge_lengths(&positions, &faces)?;
         let (twins, outgoing) = build::connect(positions.len(), &faces)?;
         let angles = star::total_angles(&positions, &faces);
-        let (low, high) = positions
-            .iter()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| {
-                (low.min(p), high.max(p))
-            });
-        let diameter = (high - low).length();
+        let used = positions.iter().zip(&outgoing).filter(|p| *p.1 != NONE);
+        let diameter = check::size(used.map(|p| *p.0))?;
         Ok(Self {
             positions,
             faces,
@@ -173,7 +169,7 @@ impl Mesh {
         &self.angles
     }
 
-    /// Length of the diagonal of the bounding box: the size that tolerances are relative to.
+    /// Length of the diagonal of the bounding box of the faces: the size that tolerances are relative to.
     #[must_use]
     pub fn diameter(&self) -> f64 {
         self.diameter

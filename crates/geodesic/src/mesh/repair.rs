@@ -75,7 +75,7 @@ impl TriangleSoup {
     ///
     /// # Errors
     ///
-    /// [`Error::EmptyMesh`] if no face is left, [`Error::TooManyFaces`].
+    /// [`Error::EmptyMesh`] if no face is left, [`Error::TooManyFaces`], [`Error::MeshSize`].
     pub fn repair(&self) -> Result<Repaired, Error> {
         if self.faces.len() >= (u32::MAX / 3) as usize {
             return Err(Error::TooManyFaces {

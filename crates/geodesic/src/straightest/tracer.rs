@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::step::{PARALLEL, State, push_into};
 use super::{AtBoundary, Stop, Trace};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, face_of};
 use crate::{Error, SurfacePoint};
 
 /// The part of a direction that must lie in the tangent plane.
@@ -104,7 +104,14 @@ impl<'m> Straightest<'m> {
         if !(length >= 0.0 && length.is_finite()) {
             return Err(Error::InvalidLength { length });
         }
-        let mut state = self.start(face, weights, direction)?;
+        let mut state = match self.start(face, weights, direction) {
+            // The direction may point into the gap between the planes of two faces.
+            Err(Error::DirectionLeavesFace { face }) => self
+                .start_on_ridge(from, direction)
+                .filter(|state| state.face == face)
+                .ok_or(Error::DirectionLeavesFace { face })?,
+            state => state?,
+        };
         let mut trace = Trace {
             points: vec![from],
             positions: vec![mesh.locate(from)],
@@ -140,18 +147,74 @@ impl<'m> Straightest<'m> {
     }
 
     /// The face of a point into which a direction leads: of the faces there, the one whose plane it fits best among
-    /// those that it does not leave at once. `None` for an invalid point, or if it leaves them all.
+    /// those that it does not leave at once. At a convex vertex a direction of the tangent plane may leave them all, for it
+    /// points into the gap between the planes of two faces: then one of these two, along whose common edge a trace sets out.
+    /// `None` for an invalid point or direction, or if it leads off the surface.
     #[must_use]
     pub fn face_towards(&self, from: SurfacePoint, direction: DVec3) -> Option<u32> {
+        self.find_face_towards(from, direction).ok()
+    }
+
+    /// As [`Straightest::face_towards`], with the reason why there is none.
+    pub(crate) fn find_face_towards(
+        &self,
+        from: SurfacePoint,
+        direction: DVec3,
+    ) -> Result<u32, Error> {
         let mesh = self.mesh;
-        let from = mesh.canonical(from).ok()?;
+        let from = mesh.canonical(from)?;
+        if !direction.is_finite() {
+            return Err(Error::NonFinite {
+                what: "the direction",
+            });
+        }
+        if direction.try_normalize().is_none() {
+            return Err(Error::NoTangentialPart {
+                direction: direction.to_array(),
+                face: mesh.faces_of(from).next().unwrap_or_default(),
+            });
+        }
         let tilt = |f: u32| direction.dot(mesh.face_normal(f)).abs();
-        mesh.faces_of(from)
+        let best = mesh
+            .faces_of(from)
             .filter(|&f| {
                 let weights = mesh.barycentric_in(f, from);
                 weights.is_some_and(|weights| self.start(f, weights, direction).is_ok())
             })
-            .min_by(|&f, &g| tilt(f).total_cmp(&tilt(g)))
+            .min_by(|&f, &g| tilt(f).total_cmp(&tilt(g)));
+        let on_ridge = || Some(self.start_on_ridge(from, direction)?.face);
+        best.or_else(on_ridge).ok_or(Error::DirectionLeavesSurface {
+            direction: direction.to_array(),
+            point: from,
+        })
+    }
+
+    /// The start along the edge, between two faces at a vertex, into the gap between whose planes a direction points; of
+    /// several such edges the nearest one.
+    fn start_on_ridge(&self, from: SurfacePoint, direction: DVec3) -> Option<State> {
+        let mesh = self.mesh;
+        let SurfacePoint::Vertex(v) = from else {
+            return None;
+        };
+        let unit = direction.try_normalize()?;
+        let ridges = mesh.star(v).filter_map(|h| {
+            let other = face_of(mesh.twin(h)?);
+            let along = (mesh.position(mesh.tip(h)) - mesh.position(v)).normalize();
+            // Into either face, perpendicular to the edge.
+            let left = mesh.face_normal(face_of(h)).cross(along);
+            let right = along.cross(mesh.face_normal(other));
+            let ahead = unit.dot(along);
+            let is_gap = ahead > 0.0 && unit.dot(left) <= 0.0 && unit.dot(right) <= 0.0;
+            is_gap.then_some((ahead, h, along))
+        });
+        let (_, h, along) = ridges.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let weights = mesh.barycentric_in(face_of(h), from)?;
+        Some(State {
+            face: face_of(h),
+            weights,
+            direction: along,
+            entered: weights.map(|l| l <= 0.0),
+        })
     }
 
     fn start(&self, face: u32, weights: [f64; 3], direction: DVec3) -> Result<State, Error> {

@@ -33,7 +33,7 @@ pub(super) fn draw_cube(context: &mut Context) -> Result<()> {
             &cube,
             &opposite,
             &format!("from corner to corner: √{:.6}", opposite.length().powi(2)),
-        ),
+        )?,
         unfolded(
             &cube,
             &round,
@@ -41,7 +41,7 @@ pub(super) fn draw_cube(context: &mut Context) -> Result<()> {
                 "a geodesic of length {:.3}; the shortest: {direct:.3}",
                 round.length()
             ),
-        ),
+        )?,
     ];
     context.figure(
         "figure-cube",
@@ -52,8 +52,8 @@ pub(super) fn draw_cube(context: &mut Context) -> Result<()> {
 }
 
 /// A path in the plane of its faces.
-fn unfolded(mesh: &Surface, path: &GeodesicPath, title: &str) -> Plot {
-    let mut flat = path.unfold(mesh);
+fn unfolded(mesh: &Surface, path: &GeodesicPath, title: &str) -> Result<Plot> {
+    let mut flat = path.unfold(mesh)?;
     // From left to right.
     let chord = flat.points[flat.points.len() - 1] - flat.points[0];
     let turn = DVec2::new(chord.x, -chord.y).normalize_or(DVec2::X);
@@ -76,7 +76,7 @@ fn unfolded(mesh: &Surface, path: &GeodesicPath, title: &str) -> Plot {
     let ends = [flat.points[0], flat.points[flat.points.len() - 1]];
     plot.point(ends[0], "X₀", Side::Left, VERMILION.fill());
     plot.point(ends[1], "X₁", Side::Right, VERMILION.fill());
-    plot
+    Ok(plot)
 }
 
 /// A small terrain, of some the one on which a path across takes the most updates, and that path after each.
@@ -123,7 +123,7 @@ pub(super) fn draw_updates(context: &mut Context) -> Result<()> {
             1 => format!("after one update: {:.3}", stage.length()),
             _ => format!("after {index} updates: {:.3}", stage.length()),
         });
-        let faces = stage.unfold(&mesh).faces;
+        let faces = stage.unfold(&mesh)?.faces;
         for (f, face) in mesh.faces().iter().enumerate() {
             let corners = face.map(|v| mesh.positions()[v as usize].truncate());
             let fill = if faces.contains(&(f as u32)) {
@@ -151,8 +151,8 @@ pub(super) fn draw_updates(context: &mut Context) -> Result<()> {
     )?;
     let last = stages.len() - 1;
     let strips = vec![
-        unfolded(&mesh, &stages[0], "the initial sequence laid flat"),
-        unfolded(&mesh, &stages[last], "the final one"),
+        unfolded(&mesh, &stages[0], "the initial sequence laid flat")?,
+        unfolded(&mesh, &stages[last], "the final one")?,
     ];
     context.figure(
         "figure-strips",

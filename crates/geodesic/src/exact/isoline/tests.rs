@@ -84,3 +84,16 @@ fn their_points_have_the_distance_and_closed_surfaces_have_closed_ones() {
     assert!(field.isolines(f64::NAN, 1e-3).is_err() && field.isolines(1.0, 0.0).is_err());
     assert!(field.isolines(2.0 * farthest, 1e-3).unwrap().is_empty());
 }
+
+#[test]
+fn tolerances_that_take_all_memory_are_refused() {
+    let sheet = shapes::sheet(1, 1, |p| p.extend(0.0)).unwrap();
+    let mut sweep = Sweep::new(&sheet);
+    let field = sweep.from_points(&[0.into()]).unwrap();
+    for tolerance in [1e-18, 1e-300] {
+        let refused = field.isolines(0.5, tolerance);
+        assert_eq!(refused, Err(Error::InvalidTolerance { tolerance }));
+    }
+    let finest = field.isolines(0.5, 2e-10).unwrap();
+    assert!(finest[0].points.len() > 10_000);
+}

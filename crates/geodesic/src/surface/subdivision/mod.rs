@@ -196,14 +196,17 @@ impl SubdivisionSurface {
     pub fn carry_path(&self, path: &GeodesicPath) -> Result<Vec<u32>, Error> {
         let mut carried: Vec<u32> = Vec::new();
         for (ends, &face) in path.points().windows(2).zip(path.faces()) {
+            let piece = self.pieces.get(face as usize);
             let weights = |point: SurfacePoint| {
-                let known = (face as usize) < self.pieces.len();
-                known
-                    .then(|| self.mesh.barycentric_in(face, point))
-                    .flatten()
+                piece
+                    .and_then(|_| self.mesh.barycentric_in(face, point))
                     .ok_or(Error::SequenceMissesPoint { point })
             };
-            for tile in self.pieces[face as usize].tiles_met(weights(ends[0])?, weights(ends[1])?) {
+            let (from, to) = (weights(ends[0])?, weights(ends[1])?);
+            for tile in piece
+                .into_iter()
+                .flat_map(|piece| piece.tiles_met(from, to))
+            {
                 if carried.last() != Some(&tile) {
                     carried.push(tile);
                 }
