@@ -13,6 +13,9 @@ use crate::{Error, SurfacePoint};
 /// each other, known to half the digits where these touch.
 const JOINED: f64 = 1e-7;
 
+/// Ends that have found no partner there look so many times farther: where circles touch at a small angle, half the digits are fewer.
+const FARTHER: f64 = 30.0;
+
 /// Distances that differ by less than this share are equal when arcs are sorted out.
 const EQUAL: f64 = 1e-10;
 
@@ -374,26 +377,33 @@ fn on_mesh(mesh: &Mesh, arc: &Arc) -> Vec<(SurfacePoint, DVec3)> {
         .collect()
 }
 
-/// Pairs ends of lines that are the same point: for each one its partner. The two of one line may be partners if it is long
-/// enough to close.
+/// Pairs ends of lines that are the same point, the nearest first: for each one its partner. All arcs run counter-clockwise about
+/// their centres, so that an end meets a beginning. The two of one line may be partners if it is long enough to close.
 fn partners(points: &[DVec3], tolerance: f64, may_close: impl Fn(u32) -> bool) -> Vec<Option<u32>> {
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
     order.sort_by(|&a, &b| points[a as usize].x.total_cmp(&points[b as usize].x));
     let mut partners = vec![None; points.len()];
-    for (i, &a) in order.iter().enumerate() {
-        if partners[a as usize].is_some() {
-            continue;
+    for reach in [tolerance, FARTHER * tolerance] {
+        let mut pairs: Vec<(f64, u32, u32)> = Vec::new();
+        for (i, &a) in order.iter().enumerate() {
+            let here = points[a as usize];
+            let is_alone = |end: u32| partners[end as usize].is_none();
+            if !is_alone(a) {
+                continue;
+            }
+            let candidates = order[i + 1..]
+                .iter()
+                .take_while(|&&b| points[b as usize].x - here.x <= reach)
+                .filter(|&&b| is_alone(b) && a % 2 != b % 2 && (b != a ^ 1 || may_close(a)))
+                .map(|&b| (points[b as usize].distance(here), a, b))
+                .filter(|(distance, ..)| *distance <= reach);
+            pairs.extend(candidates);
         }
-        let here = points[a as usize];
-        let partner = order[i + 1..]
-            .iter()
-            .take_while(|&&b| points[b as usize].x - here.x <= tolerance)
-            .filter(|&&b| partners[b as usize].is_none() && (b != a ^ 1 || may_close(a)))
-            .map(|&b| (points[b as usize].distance(here), b))
-            .filter(|(distance, _)| *distance <= tolerance)
-            .min_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some((_, b)) = partner {
-            (partners[a as usize], partners[b as usize]) = (Some(b), Some(a));
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (_, a, b) in pairs {
+            if partners[a as usize].is_none() && partners[b as usize].is_none() {
+                (partners[a as usize], partners[b as usize]) = (Some(b), Some(a));
+            }
         }
     }
     partners
