@@ -271,7 +271,7 @@ impl<C: PlaneCurve + ?Sized> Fitter<'_, C> {
     }
 
     /// The remainder over `t^3 (1-t)^3` as a cubic through all four nodes, or else as a polynomial through these and five more.
-    #[inline]
+    #[inline(never)] // It is large, and the lower classes are the quick way.
     fn high_class(
         &self,
         base: &Base<'_>,
