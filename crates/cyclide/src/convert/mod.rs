@@ -3,13 +3,19 @@
 //! The tangent spheres along three iso-curves of one parameter are three points of a conic in R^{3,1}, and three points determine it. This stays
 //! stable where the classical way (axes as intersections of circle planes) runs to infinity, on surfaces near a torus.
 
+mod reading;
+mod spheres;
+mod tangent_sphere;
+
+use self::reading::spans;
+use self::spheres::{NEARLY_ONE_SPHERE, spheres_agree};
+use self::tangent_sphere::HomogeneousSphere;
 use crate::determine;
 use crate::patch::normalise;
-use crate::{CyclidePatch, Dupin, Error, Frame, Kind, Quartic, tolerance};
+use crate::{CyclidePatch, Dupin, Error, Kind, tolerance};
 use bezier_mass::{Biquadratic, MassPoint};
 use glam::DVec3;
 use lorentz::Cycle;
-use std::f64::consts::{PI, TAU};
 
 /// A recognised patch: the surface, the parameters of the net's edges, and how well they reproduce it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,11 +58,11 @@ impl Conversion {
 /// a double sphere of which the first runs through a pole.
 const READING_LINES: [f64; 2] = [0.37, 0.61];
 
-/// Places along an iso-curve of which the one best between its ends tells the direction of the parameter.
-const SAMPLES: u32 = 16;
-
 /// Where an iso-curve is taken for one that has shrunk to a singular point: further inside, at the start, in the middle and at the end.
 pub(crate) const INSTEAD: [[f64; 3]; 3] = [[0.0, 0.14, 0.23], [0.5, 0.43, 0.61], [1.0, 0.87, 0.79]];
+
+/// An iso-curve shorter than this share of the net is a singular point: its tangents have half their digits left.
+pub(crate) const POLE: f64 = 1e-8;
 
 /// Converts a biquadratic net into the cyclide of which it is a patch: quartic, parabolic or double sphere.
 ///
@@ -339,303 +345,6 @@ impl Scaled {
         }
         Ok(difference / largest)
     }
-
-    /// A patch of a sphere: the eccentricity and the frame of its orthogonal net of circles come from the planes of its iso-curves.
-    fn sphere(&self, sphere: Cycle) -> Result<Conversion, Error> {
-        let radius = sphere.radius.abs();
-        let rows = self.pencil_axis(&self.net, sphere.centre, radius);
-        let columns = self.pencil_axis(&self.net.transposed(), sphere.centre, radius);
-        // The planes of theta = const meet in a line that cuts the sphere; those of psi = const outside, or are parallel.
-        let (axis, rows_follow_first) = match (rows, columns) {
-            (Some(rows), Some(columns)) if columns.foot.length() < rows.foot.length() => {
-                (columns, false)
-            }
-            (Some(rows), _) => (rows, true),
-            (None, Some(columns)) => (columns, false),
-            (None, None) => {
-                return Err(Error::NotDetermined {
-                    reason: "the iso-curves lie in parallel planes",
-                });
-            }
-        };
-        let e = axis.foot.length() / radius;
-        let z = axis.direction;
-        let x = if e <= tolerance::TANGENT_SPHERES {
-            z.any_orthonormal_vector()
-        } else {
-            axis.foot
-        };
-        let e = if e <= tolerance::TANGENT_SPHERES {
-            0.0
-        } else {
-            e
-        };
-        let frame =
-            Frame::from_directions(sphere.centre, x, z.cross(x)).ok_or(Error::NotDetermined {
-                reason: "the net collapses",
-            })?;
-        self.read_off(
-            Quartic::double_sphere(radius, e, frame)?.into(),
-            rows_follow_first,
-        )
-    }
-
-    /// A cyclide next to a sphere: its frame and eccentricity are those of the net of circles on the sphere, and `a`, `mu` and the centre
-    /// follow from the tangent spheres of the first family, `(a cos theta, b sin theta, 0 ; mu - c cos theta)`, as a linear problem.
-    fn nearly_sphere(
-        &self,
-        sphere: &Conversion,
-        families: &[[HomogeneousSphere; 3]; 2],
-    ) -> Result<Conversion, Error> {
-        let Dupin::Quartic(net_of_circles) = sphere.surface else {
-            return Ok(*sphere);
-        };
-        let [rows, columns] = families;
-        let (net, first_family) = if sphere.rows_follow_first {
-            (self.net, rows)
-        } else {
-            (self.net.transposed(), columns)
-        };
-        let line = READING_LINES[0];
-        let crossing = net_of_circles.parameters_at(net.point(line, line)?);
-        let (e, q) = (net_of_circles.eccentricity(), net_of_circles.minor_ratio());
-        let frame = *net_of_circles.frame();
-        // Where the unit ellipse of centres is, and minus how the radius changes.
-        let mut expected = [Cycle::default(); 3];
-        for (expected, u) in expected.iter_mut().zip([0.0, 0.5, 1.0]) {
-            let angles = net_of_circles.parameters_at(net.point(u, line)?);
-            let [theta, _] = on_sheet(angles, crossing, 1);
-            let (sin, cos) = theta.sin_cos();
-            *expected = Cycle::new(
-                frame.vector_to_world(DVec3::new(cos, q * sin, 0.0)),
-                -e * cos,
-            );
-        }
-        let given = first_family.map(|sphere| {
-            let Cycle { centre, radius } = sphere.cycle();
-            Cycle::new(centre, radius.abs())
-        });
-        let mean = |cycles: &[Cycle; 3]| (cycles[0] + cycles[1] + cycles[2]) * (1.0 / 3.0);
-        let (mean_expected, mean_given) = (mean(&expected), mean(&given));
-        let (mut product, mut square) = (0.0, 0.0);
-        for (expected, given) in expected.iter().zip(&given) {
-            let (step, found) = (*expected - mean_expected, *given - mean_given);
-            product += step.centre.dot(found.centre) + step.radius * found.radius;
-            square += step.centre.length_squared() + step.radius * step.radius;
-        }
-        let signed = product / square;
-        let centre = mean_given - mean_expected * signed;
-        let a = signed.abs();
-        let surface =
-            Quartic::with_half_axes([a, a * q, a * e], centre.radius, frame.at(centre.centre))?;
-        self.read_off(surface.into(), sphere.rows_follow_first)
-    }
-
-    /// The line common to the planes of the iso-curves `u = const`, about the centre of a sphere.
-    fn pencil_axis(
-        &self,
-        net: &Biquadratic<DVec3>,
-        centre: DVec3,
-        radius: f64,
-    ) -> Option<PencilAxis> {
-        let chords = |u: f64| -> Option<(DVec3, [DVec3; 2])> {
-            let [p, q, r] = [0.0, 0.5, 1.0].map(|v| net.point(u, v).ok());
-            let p = p?;
-            Some((p - centre, [q? - p, r? - p]))
-        };
-        let curves = [0.0, 0.25, 0.5, 0.75, 1.0].map(chords);
-        let longest = |[q, r]: [DVec3; 2]| q.length().max(r.length());
-        let reach = curves
-            .iter()
-            .flatten()
-            .map(|&(_, chords)| longest(chords))
-            .fold(0.0, f64::max);
-        // A curve that has shrunk to a pole has no plane.
-        let planes: Vec<(DVec3, f64)> = curves
-            .into_iter()
-            .flatten()
-            .filter(|&(_, chords)| longest(chords) > POLE * reach)
-            .filter_map(|(p, [q, r])| {
-                let normal = q.cross(r).try_normalize()?;
-                Some((normal, normal.dot(p)))
-            })
-            .collect();
-        // The two planes that meet at the largest angle.
-        let mut widest: Option<PencilAxis> = None;
-        let mut sine = tolerance::TANGENT_SPHERES;
-        for (index, first) in planes.iter().enumerate() {
-            for second in planes.iter().skip(index + 1) {
-                let cross = first.0.cross(second.0);
-                if cross.length() > sine {
-                    sine = cross.length();
-                    let foot = (first.1 * second.0.cross(cross) - second.1 * first.0.cross(cross))
-                        / cross.length_squared();
-                    widest = Some(PencilAxis {
-                        foot,
-                        direction: cross.normalize(),
-                    });
-                }
-            }
-        }
-        widest.filter(|axis| axis.foot.length() < radius)
-    }
-}
-
-/// The axis of a pencil of planes, seen from the centre of a sphere: its foot and its direction.
-#[derive(Clone, Copy)]
-struct PencilAxis {
-    foot: DVec3,
-    direction: DVec3,
-}
-
-/// An iso-curve shorter than this share of the net is a singular point: its tangents have half their digits left.
-pub(crate) const POLE: f64 = 1e-8;
-
-/// Tangent spheres as close as this leave too few digits for the axes of their conic.
-const NEARLY_ONE_SPHERE: f64 = 1e-5;
-
-fn spheres_agree(spheres: &[Cycle; 3], tolerance: f64) -> bool {
-    let [start, ..] = spheres;
-    let scale = start.centre.length().max(start.radius.abs()).max(1.0);
-    spheres.iter().all(|sphere| {
-        let step = *sphere - *start;
-        step.centre.length().hypot(step.radius) <= tolerance * scale
-    })
-}
-
-/// A sphere or plane that touches the patch along an iso-curve: weight, weighted centre and weighted radius.
-#[derive(Clone, Copy)]
-struct HomogeneousSphere {
-    weight: f64,
-    centre: DVec3,
-    radius: f64,
-}
-
-impl HomogeneousSphere {
-    /// From one point of the iso-curve with its normal, and the chord to another.
-    /// `None` where the iso-curve has shrunk to a point or has no normal.
-    fn along(net: &Biquadratic<DVec3>, u: f64, flipped: bool) -> Option<Self> {
-        // The next start is tried where the patch has no normal, at a singular corner.
-        for start in [0.0, 0.5, 1.0] {
-            let jet = net.jet(u, start);
-            let Some(point) = jet.value.position() else {
-                continue;
-            };
-            let along = |partial: MassPoint<DVec3>| {
-                (partial.weighted - partial.weight * point) / jet.value.weight
-            };
-            let (along_u, along_v) = (along(jet.du), along(jet.dv));
-            let cross = if flipped {
-                along_v.cross(along_u)
-            } else {
-                along_u.cross(along_v)
-            };
-            let lengths = [along_u.length(), along_v.length()];
-            if lengths[0].min(lengths[1]) <= POLE
-                || cross.length() <= tolerance::TANGENT_SPHERES * lengths[0] * lengths[1]
-            {
-                continue;
-            }
-            let Some(normal) = cross.try_normalize() else {
-                continue;
-            };
-            let chord = [0.0, 0.5, 1.0]
-                .into_iter()
-                .filter_map(|v| net.point(u, v).ok())
-                .map(|other| other - point)
-                .max_by(|one, other| one.length_squared().total_cmp(&other.length_squared()))
-                .unwrap_or_default();
-            let square = chord.length_squared();
-            // The net has size one.
-            if square <= POLE * POLE {
-                return None;
-            }
-            let weight = normal.dot(chord);
-            return Some(Self {
-                weight,
-                centre: weight * point + 0.5 * square * normal,
-                radius: -0.5 * square,
-            });
-        }
-        None
-    }
-
-    fn is_plane(&self) -> bool {
-        // The weight is the sine of the angle between chord and tangent plane, times the chord.
-        self.weight.abs() <= tolerance::TANGENT_SPHERES * (2.0 * self.radius.abs()).sqrt()
-    }
-
-    fn cycle(&self) -> Cycle {
-        Cycle::new(self.centre / self.weight, self.radius / self.weight)
-    }
-}
-
-/// The spans of both parameters of a net whose rows follow the first one, read off along the iso-curves at `line`.
-fn spans(
-    net: &Biquadratic<DVec3>,
-    surface: &Dupin,
-    line: f64,
-) -> Result<[[f64; 2]; 2], bezier_mass::Error> {
-    let at = |u: f64, v: f64| net.point(u, v).map(|point| surface.parameters_at(point));
-    let Dupin::Quartic(quartic) = surface else {
-        return Ok([
-            [at(0.0, line)?[0], at(1.0, line)?[0]],
-            [at(line, 0.0)?[1], at(line, 1.0)?[1]],
-        ]);
-    };
-    let crossing = at(line, line)?;
-    let constant = |angles: [f64; 2], which: usize| {
-        if quartic.a() == 0.0 {
-            on_sheet(angles, crossing, which)
-        } else {
-            angles
-        }
-    };
-    let first = span(|t| Ok(constant(at(t, line)?, 1)[0]))?;
-    let second = span(|t| Ok(constant(at(line, t)?, 0)[1]))?;
-    Ok([reduced(first), reduced(second)])
-}
-
-/// On the double sphere `(theta, psi)` and `(theta + pi, pi - psi)` are one point: the pair that keeps the parameter that is constant along
-/// an iso-curve through the crossing.
-fn on_sheet([theta, psi]: [f64; 2], crossing: [f64; 2], constant: usize) -> [f64; 2] {
-    let pair = [theta, psi];
-    let other = [theta + PI, PI - psi];
-    let off = |pair: [f64; 2]| nearest_turn(pair[constant] - crossing[constant], 0.0).abs();
-    if off(other) < off(pair) { other } else { pair }
-}
-
-/// An angle at the start and at the end of an iso-curve. On a patch it grows or falls all the way, by less than a full turn, so that one
-/// place between the ends decides which: the one furthest from both.
-fn span(
-    angle: impl Fn(f64) -> Result<f64, bezier_mass::Error>,
-) -> Result<[f64; 2], bezier_mass::Error> {
-    let (start, end) = (angle(0.0)?, angle(1.0)?);
-    let ahead = |angle: f64| (angle - start).rem_euclid(TAU);
-    let whole = ahead(end);
-    let (mut widest, mut grows) = (-1.0, true);
-    for step in 1..SAMPLES {
-        let between = angle(f64::from(step) / f64::from(SAMPLES))?;
-        let gap = [start, end]
-            .map(|end| nearest_turn(between - end, 0.0).abs())
-            .into_iter()
-            .fold(f64::INFINITY, f64::min);
-        if gap > widest {
-            (widest, grows) = (gap, ahead(between) <= whole);
-        }
-    }
-    Ok([start, start + if grows { whole } else { whole - TAU }])
-}
-
-/// The angle equal to `angle` up to full turns that is nearest to `reference`.
-fn nearest_turn(angle: f64, reference: f64) -> f64 {
-    angle - TAU * ((angle - reference) / TAU).round()
-}
-
-/// Both ends shifted by full turns so that the first lies in `[0, 2 pi)`; one that the recovery left below zero is zero.
-fn reduced([from, to]: [f64; 2]) -> [f64; 2] {
-    let turns = ((from + tolerance::RECOVERED_KIND) / TAU).floor();
-    [(from - turns * TAU).max(0.0), to - turns * TAU]
 }
 
 #[cfg(feature = "serde")]
@@ -674,19 +383,5 @@ impl TryFrom<ConversionData> for Conversion {
             second,
             residual,
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_start_just_below_a_full_turn_is_zero() {
-        assert_eq!(reduced([-1e-15, 2.0]), [0.0, 2.0]);
-        assert_eq!(reduced([TAU - 1e-12, TAU + 2.0]), [0.0, 2.0]);
-        assert_eq!(reduced([TAU, 1.0]), [0.0, 1.0 - TAU]);
-        assert_eq!(reduced([-1.0, -2.0]), [TAU - 1.0, TAU - 2.0]);
-        assert_eq!(reduced([1e-15, -2.0]), [1e-15, -2.0]);
     }
 }
