@@ -1,20 +1,13 @@
 //! The G2 pipeline on a thousand random B-splines, and its laws.
 
+#[path = "common/random.rs"]
+mod random;
+
 use ph_curves::glam::DVec2;
 use ph_curves::{Approximated, Approximation, CubicPath, Piece, PlaneCurve, approximate};
-
-/// A small generator of reproducible numbers (SplitMix64).
-struct Random(u64);
+use random::Random;
 
 impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
     fn point(&mut self) -> DVec2 {
         DVec2::new(self.unit(), self.unit()) * 2.0 - 1.0
     }

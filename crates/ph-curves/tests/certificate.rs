@@ -1,23 +1,12 @@
 //! Approximations proven to be within their tolerance.
 
+#[path = "common/walk.rs"]
+mod walk;
+
 use bezier_mass::{BSplineCurve, Knots, MassPoint};
 use ph_curves::glam::{DVec2, dvec2};
 use ph_curves::{Approximation, CubicPath, Error, Joint, PlaneCurve, RationalPath, approximate};
-
-/// Random closed and open B-splines with inflections, of size 10.
-fn walk(seed: u64) -> CubicPath {
-    let mut state = seed;
-    let mut unit = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    let control: Vec<DVec2> = (0..10)
-        .map(|_| dvec2(10.0 * unit(), 10.0 * unit()))
-        .collect();
-    CubicPath::uniform_bspline(&control, seed.is_multiple_of(2)).unwrap()
-}
+use walk::walk;
 
 fn approximations(tolerance: f64) -> [Approximation; 4] {
     let quartics = Approximation::quartics(tolerance);
@@ -35,7 +24,7 @@ fn approximations(tolerance: f64) -> [Approximation; 4] {
 #[test]
 fn random_splines_are_proven_to_keep_the_tolerance() {
     for seed in 0..150 {
-        let curve = walk(seed);
+        let curve = walk(seed, 10, seed.is_multiple_of(2));
         for tolerance in [1e-3, 1e-6] {
             for how in approximations(tolerance) {
                 let result = approximate(&curve, &how).unwrap();
@@ -53,7 +42,7 @@ fn random_splines_are_proven_to_keep_the_tolerance() {
 #[test]
 fn a_bound_below_the_true_error_is_refused() {
     for seed in 0..40 {
-        let curve = walk(seed);
+        let curve = walk(seed, 10, seed.is_multiple_of(2));
         let tolerance = 1e-4;
         for how in approximations(tolerance) {
             let result = approximate(&curve, &how).unwrap();
@@ -95,7 +84,7 @@ fn cusps_corners_and_straight_parts_are_certified() {
 #[test]
 fn enclosures_hold_the_derivatives() {
     let nurbs = nurbs();
-    let cubics = walk(7);
+    let cubics = walk(7, 10, false);
     let curves: [&dyn PlaneCurve; 2] = [&nurbs, &cubics];
     for curve in curves {
         for span in 0..curve.spans() {
@@ -152,14 +141,14 @@ fn rational_curves_are_certified() {
 
 #[test]
 fn another_curve_is_not_certified() {
-    let curve = walk(3);
+    let curve = walk(3, 10, false);
     let result = approximate(&curve, &Approximation::within(1e-3)).unwrap();
     assert!(matches!(
         result.certify(&curve.reverse(), 1e-3),
         Err(Error::NotCertified { .. })
     ));
     assert!(matches!(
-        result.certify(&walk(5), 1e-3),
+        result.certify(&walk(5, 10, false), 1e-3),
         Err(Error::NotCertified { .. })
     ));
     for tolerance in [0.0, -1.0, f64::NAN, f64::INFINITY] {
@@ -172,7 +161,7 @@ fn another_curve_is_not_certified() {
 
 #[test]
 fn sources_that_do_not_belong_to_the_spline_prove_nothing() {
-    let curve = walk(4);
+    let curve = walk(4, 10, true);
     let result = approximate(&curve, &Approximation::within(1e-3)).unwrap();
     let nonsense: [Vec<[f64; 2]>; 6] = [
         Vec::new(),

@@ -1,7 +1,11 @@
 //! Crossings of splines with themselves, against those of dense polylines.
 
+#[path = "common/walk.rs"]
+mod walk;
+
 use ph_curves::glam::{DVec2, dvec2};
 use ph_curves::{Approximation, ArcSpline, CubicPath, approximate};
+use walk::walk;
 
 /// Chords per piece.
 const CHORDS: usize = 48;
@@ -45,21 +49,6 @@ fn meeting(a: &Chord, b: &Chord) -> Option<DVec2> {
     (clear && inside(t) && inside(s)).then(|| a.ends[0] + u * t)
 }
 
-/// A B-spline of random control points: a walk that crosses itself often.
-fn walk(seed: u64, closed: bool) -> CubicPath {
-    let mut state = seed;
-    let mut unit = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    let control: Vec<DVec2> = (0..14)
-        .map(|_| dvec2(10.0 * unit(), 10.0 * unit()))
-        .collect();
-    CubicPath::uniform_bspline(&control, closed).unwrap()
-}
-
 #[test]
 fn every_clear_crossing_of_chords_is_a_crossing_of_arcs() {
     let (mut seen, mut found) = (0, 0);
@@ -69,7 +58,7 @@ fn every_clear_crossing_of_chords_is_a_crossing_of_arcs() {
             1 => Approximation::fewest(1e-5),
             _ => Approximation::quartics(1e-3),
         };
-        let spline = approximate(&walk(seed, seed % 2 == 0), &how)
+        let spline = approximate(&walk(seed, 14, seed % 2 == 0), &how)
             .unwrap()
             .spline;
         let spline = spline.offset([0.0, 0.4, -0.7][seed as usize % 3]).unwrap();
@@ -131,7 +120,7 @@ fn the_sides_of_a_corner_cross_in_its_inner_offset() {
 #[test]
 fn a_cusp_in_a_joint_is_passed_in_the_other_direction() {
     // Seed 95 of the walks: a joint without continuous curvature, at which the radius of the offset changes its sign.
-    let spline = approximate(&walk(95, false), &Approximation::quartics(1e-3))
+    let spline = approximate(&walk(95, 14, false), &Approximation::quartics(1e-3))
         .unwrap()
         .spline;
     let crossings = spline.offset(-0.7).unwrap().crossings();

@@ -1,7 +1,11 @@
 //! Trimmed offsets keep their distance and lose nothing that has it.
 
+#[path = "common/random.rs"]
+mod random;
+
 use ph_curves::glam::{DVec2, dvec2};
 use ph_curves::{Approximation, ArcSpline, CubicPath, Piece, approximate};
+use random::Random;
 
 fn spline(curve: &CubicPath, how: Approximation) -> ArcSpline {
     approximate(curve, &how).unwrap().spline
@@ -64,19 +68,6 @@ fn a_waist_separates_the_inner_offset_into_two() {
     assert_eq!(parts.len(), 2);
     assert!(parts.iter().all(ArcSpline::is_closed));
     assert!((parts[0].length() - parts[1].length()).abs() < 1e-9);
-}
-
-/// A small generator of reproducible numbers (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }
 
 #[test]
